@@ -1,0 +1,31 @@
+// The sub-commands of `pliant`. Each returns the exit code: 0 good, 1 bad input, 2 bad usage, 3 diverged,
+// 4 device failure; errors may also be thrown as pliant::Error.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pliant/simulation.hpp"
+
+namespace pliant::tool {
+
+struct RunOptions {
+    std::string scene;
+    SimulationOptions simulation;
+    std::optional<std::uint64_t> frames;   ///< instead of the scene's duration
+    std::vector<std::string> overrides;    ///< path=value
+    std::string statistics_file, summary_file, cache_file;
+    std::vector<std::string> picture_files;
+    std::string stills;                    ///< pattern for a few pictures over the run
+    bool check = false;                    ///< hold the run against the scene's own check
+    bool quiet = false;
+};
+
+int run_command(const RunOptions& options);
+int list_command();
+int info_command();
+int check_command(const std::string& scene_or_mesh, const std::vector<std::string>& overrides);
+
+}  // namespace pliant::tool

@@ -1,0 +1,277 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "backend/vulkan/device_state.hpp"
+#include "commands.hpp"
+#include "progress.hpp"
+#include "record/cache_file.hpp"
+#include "record/run_record.hpp"
+#include "render/picture_recorder.hpp"
+#include "render/renderer.hpp"
+
+namespace pliant::tool {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+volatile std::sig_atomic_t interrupted = 0;
+
+/// While it lives, Ctrl-C ends the run after the current frame, with everything written so far complete.
+class InterruptGuard {
+public:
+    InterruptGuard() : before_(std::signal(SIGINT, [](int) { interrupted = 1; })) {}
+    ~InterruptGuard() { std::signal(SIGINT, before_); }
+    InterruptGuard(const InterruptGuard&) = delete;
+    InterruptGuard& operator=(const InterruptGuard&) = delete;
+
+private:
+    void (*before_)(int);
+};
+
+std::string formatted(const char* format, double value)
+{
+    char text[64];
+    std::snprintf(text, sizeof text, format, value);
+    return text;
+}
+
+std::string with_commas(std::uint64_t n)
+{
+    std::string text = std::to_string(n);
+    for (auto at = static_cast<std::ptrdiff_t>(text.size()) - 3; at > 0; at -= 3) text.insert(static_cast<std::size_t>(at), ",");
+    return text;
+}
+
+/// Draws a simulation for the recorders that want pictures; frames stay on the device when the simulation is there.
+class Pictures {
+public:
+    Pictures(Simulation& simulation, const RunOptions& options, std::uint64_t frames) : simulation_(simulation)
+    {
+        for (const std::string& file : options.picture_files)
+            recorders_.push_back(std::make_unique<PictureRecorder>(file, simulation.scene().time.frame_rate));
+        if (!options.stills.empty()) {
+            stills_ = std::make_unique<PictureRecorder>(options.stills, simulation.scene().time.frame_rate);
+            constexpr std::uint64_t still_count = 6;
+            for (std::uint64_t k = 0; k < still_count; ++k) still_frames_.push_back(k * frames / (still_count - 1));
+        }
+        if (recorders_.empty() && !stills_) return;
+        try {
+            open_device();
+        } catch (const Error& error) {
+            if (simulation.device_state()) throw;
+            recorders_.clear();
+            stills_.reset();
+            refusal_ = error.what();
+        }
+    }
+
+    /// Why there are no pictures though some were asked for; empty when there are.
+    const std::string& refusal() const { return refusal_; }
+    std::string device_name() const { return device_ ? device_->info().name : ""; }
+    double seconds() const { return seconds_; }
+
+    /// The state after a frame, 0 being the start.
+    void take(std::uint64_t frame, bool last)
+    {
+        const auto start = Clock::now();
+        const bool still = stills_ && (last || std::count(still_frames_.begin(), still_frames_.end(), frame) > 0);
+        bool wanted = still;
+        for (const auto& recorder : recorders_) wanted |= recorder->wants(frame, last);
+        if (!wanted) return;
+        draw();
+        for (const auto& recorder : recorders_)
+            if (recorder->wants(frame, last)) recorder->add(image_, frame);
+        if (still) stills_->add(image_, frame);
+        seconds_ += seconds_since(start);
+    }
+
+    void finish()
+    {
+        const auto start = Clock::now();
+        for (const auto& recorder : recorders_) recorder->finish();
+        if (stills_) stills_->finish();
+        seconds_ += seconds_since(start);
+    }
+
+private:
+    void open_device()
+    {
+        device_ = simulation_.device_state() ? simulation_.device_state()->device()
+                                             : std::make_shared<vulkan::Device>(vulkan::DeviceOptions{});
+        const Scene& scene = simulation_.scene();
+        std::vector<ClothTopology> topologies;
+        for (std::size_t c = 0; c < scene.cloth_count(); ++c) {
+            const auto* sheet = std::get_if<SheetOptions>(&scene.cloth(c).shape);
+            topologies.push_back({simulation_.triangles(c), static_cast<std::uint32_t>(simulation_.positions(c).size()),
+                                  sheet ? sheet->rows : 0, sheet ? sheet->columns : 0});
+        }
+        renderer_ = std::make_unique<Renderer>(device_, scene, topologies);
+    }
+
+    void draw()
+    {
+        frames_.clear();
+        for (std::size_t c = 0; c < simulation_.scene().cloth_count(); ++c) {
+            if (DeviceState* state = simulation_.device_state())
+                frames_.push_back(ClothFrame{state->drawable(c)});
+            else
+                frames_.push_back(
+                    ClothFrame{HostCloth{simulation_.positions(c), simulation_.normals(c), simulation_.strains(c)}});
+        }
+        renderer_->draw(simulation_.time(), frames_, image_);
+    }
+
+    Simulation& simulation_;
+    std::shared_ptr<vulkan::Device> device_;
+    std::unique_ptr<Renderer> renderer_;
+    std::vector<std::unique_ptr<PictureRecorder>> recorders_;
+    std::unique_ptr<PictureRecorder> stills_;
+    std::vector<std::uint64_t> still_frames_;
+    std::vector<ClothFrame> frames_;
+    Image image_;
+    std::string refusal_;
+    double seconds_ = 0;
+};
+
+/// One run from the first frame to the summary.
+class Run {
+public:
+    explicit Run(const RunOptions& options)
+        : options_(options), scene_(read_scene(options.scene, options.overrides)),
+          simulation_(scene_, options.simulation),
+          frames_(options.frames.value_or(static_cast<std::uint64_t>(
+              std::max(1.0, std::round(scene_.time.duration * scene_.time.frame_rate))))),
+          pictures_(simulation_, options, frames_)
+    {
+        if (!options.statistics_file.empty()) statistics_ = std::make_unique<StatisticsFile>(options.statistics_file);
+        if (!options.cache_file.empty()) cache_ = make_cache_file(options.cache_file);
+    }
+
+    int execute()
+    {
+        say_start();
+        advance_all();
+        const int code = finish();
+        return code;
+    }
+
+private:
+    void say_start()
+    {
+        const std::string warning = simulation_.stability_warning();
+        if (!warning.empty()) std::fprintf(stderr, "warning: %s\n", warning.c_str());
+        if (!pictures_.refusal().empty())
+            std::fprintf(stderr, "warning: the run goes on without pictures: %s\n", pictures_.refusal().c_str());
+        if (options_.quiet) return;
+        std::printf("%s: %s nodes, %s springs, %llu frames of %.4g ms in %u steps, on %s\n", scene_.name.c_str(),
+                    with_commas(simulation_.node_count()).c_str(), with_commas(simulation_.spring_count()).c_str(),
+                    static_cast<unsigned long long>(frames_), 1000 / scene_.time.frame_rate, simulation_.steps_per_frame(),
+                    simulation_.device_name().c_str());
+        std::fflush(stdout);
+    }
+
+    void advance_all()
+    {
+        const InterruptGuard guard;
+        Progress progress(frames_, options_.quiet);
+        const Report& report = simulation_.report();
+        if (statistics_) statistics_->add(report, 0);
+        if (cache_) cache_->add(simulation_, 0);
+        pictures_.take(0, false);
+        for (std::uint64_t frame = 1; frame <= frames_ && !interrupted; ++frame) {
+            const double wall_before = report.wall_seconds;
+            simulation_.advance(1 / scene_.time.frame_rate);
+            if (report.device_lost) break;
+            summary_.add_frame(report);
+            if (statistics_) statistics_->add(report, 1000 * (report.wall_seconds - wall_before));
+            if (!report.finite) break;
+            if (cache_) cache_->add(simulation_, frame);
+            pictures_.take(frame, frame == frames_ || interrupted);
+            progress.update(frame, formatted("%.3g x real time", report.simulated_seconds / report.wall_seconds));
+        }
+    }
+
+    int finish()
+    {
+        const Report& report = simulation_.report();
+        pictures_.finish();
+        if (statistics_) statistics_->finish();
+        if (cache_) cache_->finish();
+        if (report.device_lost)
+            throw Error(ErrorKind::device_failure, "the device " + simulation_.device_name() + " was lost in frame " +
+                                                       std::to_string(report.frames + 1) +
+                                                       "; update its driver, or run with --backend cpu");
+        if (!options_.summary_file.empty()) summary_.write(options_.summary_file, simulation_, seconds_since(start_));
+        if (!report.finite) throw Error(ErrorKind::diverged, divergence());
+        if (!options_.quiet) say_end();
+        if (interrupted) std::fprintf(stderr, "interrupted after frame %llu; the files are complete up to there\n",
+                                      static_cast<unsigned long long>(report.frames));
+        return interrupted ? 130 : check();
+    }
+
+    int check()
+    {
+        if (!options_.check) return 0;
+        const auto failures = failed_checks(scene_, summary_.values(simulation_));
+        for (const std::string& failure : failures) std::fprintf(stderr, "check failed: %s\n", failure.c_str());
+        if (failures.empty() && !options_.quiet)
+            std::printf("check: all %zu bounds of the scene hold\n", scene_.checks.size());
+        return failures.empty() ? 0 : static_cast<int>(ErrorKind::bad_input);
+    }
+
+    std::string divergence() const
+    {
+        const Report& report = simulation_.report();
+        const double frame = 1 / scene_.time.frame_rate;
+        const double safe = std::min(simulation_.stable_step(), 0.5 * simulation_.step_length());
+        return "the run diverged: in frame " + std::to_string(report.bad_frame) + " node " +
+               std::to_string(report.bad_node) + " of cloth '" + scene_.cloth(report.bad_cloth).name +
+               "' is no longer finite; take smaller steps, at least " +
+               std::to_string(static_cast<long long>(std::ceil(frame / safe))) +
+               " substeps per frame (--set time.substeps=N), or softer springs or heavier nodes";
+    }
+
+    void say_end()
+    {
+        const Report& report = simulation_.report();
+        const double wall = std::max(report.wall_seconds, 1e-9);
+        std::printf("simulated %.4g s in %.3g s: %.4g frames/s, %.3g x real time", report.simulated_seconds, wall,
+                    static_cast<double>(report.frames) / wall, report.simulated_seconds / wall);
+        if (!pictures_.device_name().empty())
+            std::printf("; pictures %.3g s on %s", pictures_.seconds(), pictures_.device_name().c_str());
+        std::printf("\nstretch at most %.3g %% in the last second, %.3g %% ever; penetration at most %.2g mm; state %s\n",
+                    100 * summary_.max_stretch(report.simulated_seconds), 100 * summary_.max_stretch_peak(),
+                    1000 * summary_.max_penetration(), hash_text(simulation_.state_hash()).c_str());
+        std::vector<std::string> files;
+        if (pictures_.refusal().empty()) {
+            files = options_.picture_files;
+            if (!options_.stills.empty()) files.push_back(options_.stills);
+        }
+        for (const std::string& file : {options_.cache_file, options_.statistics_file, options_.summary_file})
+            if (!file.empty()) files.push_back(file);
+        for (const std::string& file : files) std::printf("wrote %s\n", file.c_str());
+    }
+
+    const RunOptions& options_;
+    const Clock::time_point start_ = Clock::now();
+    Scene scene_;
+    Simulation simulation_;
+    std::uint64_t frames_;
+    Pictures pictures_;
+    std::unique_ptr<StatisticsFile> statistics_;
+    std::unique_ptr<CacheFile> cache_;
+    RunSummary summary_;
+};
+
+}  // namespace
+
+int run_command(const RunOptions& options) { return Run(options).execute(); }
+
+}  // namespace pliant::tool

@@ -1,0 +1,9 @@
+// Pliant: cloth and soft bodies in real time. Include this one header.
+#pragma once
+
+#include "pliant/error.hpp"
+#include "pliant/mesh.hpp"
+#include "pliant/scene.hpp"
+#include "pliant/simulation.hpp"
+#include "pliant/vec3.hpp"
+#include "pliant/version.hpp"

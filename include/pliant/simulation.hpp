@@ -1,0 +1,152 @@
+// A running simulation.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "pliant/scene.hpp"
+#include "pliant/vec3.hpp"
+
+namespace pliant {
+
+/// Where the passes run.
+enum class Backend {
+    automatic,  ///< a real GPU when there is one, else cpu
+    cpu,        ///< SIMD and threads, float
+    vulkan,     ///< compute shaders, float; the same bits as cpu
+    reference,  ///< serial, double, plain loops: the oracle
+};
+
+/// Lends the simulation the threads of a host, a game engine's for one. Without it Pliant uses its own.
+class JobSystem {
+public:
+    virtual ~JobSystem() = default;
+    /// How many tasks can run at once, >= 1.
+    virtual unsigned thread_count() const = 0;
+    /// Calls task(context, 0) ... task(context, count - 1), in any order and on any threads; returns when all are done.
+    virtual void run(unsigned count, void (*task)(void* context, unsigned index), void* context) = 0;
+};
+
+struct SimulationOptions {
+    Backend backend = Backend::automatic;
+    int device = -1;                  ///< Vulkan: index as listed by `pliant info`; -1 chooses the best
+    unsigned threads = 0;             ///< cpu: 0 means one for each core; results do not depend on it
+    std::string instruction_set = {}; ///< cpu: "sse2", "avx2", "avx512"; empty chooses the widest of this machine
+    JobSystem* job_system = nullptr;  ///< cpu: borrowed, must outlive the simulation
+    bool validation = false;          ///< Vulkan: with the validation layer; its messages count in `report()`
+};
+
+/// Milliseconds spent in one pass since the start, by the device's own clock.
+struct PassTime {
+    std::string name;
+    double milliseconds = 0;
+    std::uint64_t calls = 0;
+};
+
+/// Measures of the state at the end of the last frame, over all cloths. Stretch is (l - l0) / l0 over structural and
+/// shear springs.
+struct FrameMeasures {
+    double max_stretch = 0;
+    double mean_stretch = 0;
+    double max_penetration = 0;  ///< m, of a node below a collider's surface plus the cloth's thickness
+    double max_speed = 0;        ///< m/s
+    double kinetic_energy = 0;   ///< J
+    double elastic_energy = 0;   ///< J
+    double potential_energy = 0; ///< J, of gravity against the origin
+    std::uint64_t non_finite = 0;  ///< nodes with a position or velocity that is not finite
+};
+
+/// Counters of a simulation.
+struct Report {
+    std::uint64_t frames = 0;
+    std::uint64_t steps = 0;
+    double simulated_seconds = 0;
+    double wall_seconds = 0;  ///< spent in advance()
+    bool finite = true;
+    bool device_lost = false;  ///< a step could not be run: the device, or the memory for it, was not there
+    FrameMeasures measures;
+    // The first non-finite node, when there is one.
+    std::size_t bad_cloth = 0;
+    std::uint64_t bad_node = 0;
+    std::uint64_t bad_frame = 0;
+    std::uint64_t validation_messages = 0;  ///< Vulkan, with validation
+};
+
+class DeviceState;  // the Vulkan side of a simulation, see src/backend/vulkan
+
+/// Steps a scene through time. The scene is copied; changing it afterwards changes nothing here.
+class Simulation {
+public:
+    /// Throws Error(bad_input) for an invalid scene and Error(device_failure) when the backend is not to be had.
+    explicit Simulation(const Scene& scene, const SimulationOptions& options = {});
+    ~Simulation();
+    Simulation(Simulation&&) noexcept;
+    Simulation& operator=(Simulation&&) noexcept;
+
+    /// Advances by `duration` seconds in equal steps: the scene's substeps when it sets them (then a step lasts
+    /// 1 / (frame_rate substeps) and `duration` is rounded to whole steps, at least one), else as many as stability
+    /// asks for. Never throws. After a non-finite node it does nothing more; see report().
+    void advance(double duration) noexcept;
+
+    double time() const;  ///< s
+    const Report& report() const;
+    std::vector<PassTime> pass_times() const;
+
+    /// Positions of a cloth in m, one for each node, row by row on a sheet. Read back from the device when asked
+    /// for; valid until the next call of advance().
+    std::span<const Vec3> positions(const ClothHandle& cloth);
+    std::span<const Vec3> positions(std::size_t cloth = 0);
+    /// Velocities in m/s.
+    std::span<const Vec3> velocities(const ClothHandle& cloth);
+    std::span<const Vec3> velocities(std::size_t cloth = 0);
+    /// Unit normals (Algorithm 5 of the cloth paper).
+    std::span<const Vec3> normals(std::size_t cloth = 0);
+    /// The largest stretch of the structural and shear springs at each node, for colouring.
+    std::span<const float> strains(std::size_t cloth = 0);
+    /// Triangles of a cloth, fixed over time.
+    std::span<const Triangle> triangles(std::size_t cloth = 0) const;
+
+    /// The bits of all positions and velocities, in node order (FNV-1a, 64 bit). Equal hashes mean equal states.
+    std::uint64_t state_hash();
+
+    const Scene& scene() const;
+    Backend backend() const;          ///< never automatic
+    std::string device_name() const;  ///< the GPU's, or the CPU's with the instruction set
+    unsigned thread_count() const;
+    std::uint64_t node_count() const;
+    std::uint64_t spring_count() const;
+    std::uint64_t triangle_count() const;
+
+    /// Length of a step of a frame in s.
+    double step_length() const;
+    std::uint32_t steps_per_frame() const;
+    /// The largest step that is certainly stable for the springs' stiffness, damping and the masses, by Gershgorin's
+    /// theorem; up to twice as much may do. See docs/physics.md. Infinite without springs and damping.
+    double stable_step() const;
+    /// A sentence when the scene's step is larger than `stable_step`, else empty.
+    std::string stability_warning() const;
+
+    /// For drawing from the simulation's own buffers; null unless the backend is vulkan.
+    DeviceState* device_state();
+
+private:
+    class Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+/// A place where passes can run, as `pliant info` lists it.
+struct DeviceListing {
+    Backend backend = Backend::cpu;
+    int index = 0;             ///< for SimulationOptions::device, Vulkan only
+    std::string name, kind;    ///< kind: "discrete GPU", "integrated GPU", "software", "avx512", ...
+    std::string details;       ///< limits, one line
+};
+std::vector<DeviceListing> list_devices();
+
+const char* name_of(Backend backend);
+
+}  // namespace pliant

@@ -1,0 +1,226 @@
+// SIMD and threads: the hot passes by kernels chosen for this machine, the others node by node, all of them divided
+// into parts that depend on nothing but their size. A node's result does not depend on the part it falls into, so
+// neither the number of threads nor the width of a pack changes a bit.
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "backend/cpu/jobs.hpp"
+#include "backend/cpu/kernels.hpp"
+#include "backend/host/plain_cloth.hpp"
+#include "backend/pass_runner.hpp"
+
+namespace pliant {
+namespace {
+
+using cpu::Kernels;
+
+constexpr std::size_t spring_pack = 16;  ///< springs are divided and padded in whole packs of the widest kind
+
+/// Nodes or springs under which a call stays on one thread: about as long as waking the others takes.
+constexpr std::size_t least_work_per_thread = 1024;
+
+std::size_t round_up(std::size_t n, std::size_t unit) { return (n + unit - 1) / unit * unit; }
+
+/// The springs of a cloth as the kernel wants them.
+struct SpringArrays {
+    std::vector<std::uint32_t> first, second;
+    std::vector<float> rest_length, stiffness, damping;
+
+    SpringArrays(const ClothModel& model, const NodeLayout& layout)
+    {
+        for (const Spring& spring : model.springs) {
+            const auto k = static_cast<std::size_t>(spring.spring_class);
+            first.push_back(static_cast<std::uint32_t>(layout.offset(spring.i)));
+            second.push_back(static_cast<std::uint32_t>(layout.offset(spring.j)));
+            rest_length.push_back(static_cast<float>(spring.rest_length));
+            stiffness.push_back(static_cast<float>(model.parameters.stiffness[k]));
+            damping.push_back(static_cast<float>(model.parameters.spring_damping[k]));
+        }
+        const std::size_t size = round_up(first.size(), spring_pack);
+        const auto somewhere = static_cast<std::uint32_t>(layout.offset(0));
+        first.resize(size, somewhere);
+        second.resize(size, somewhere);
+        for (auto* numbers : {&rest_length, &stiffness, &damping}) numbers->resize(size, 0.0f);
+    }
+};
+
+cpu::ConstVectors pointers(const Planes<float>& a) { return {a.x.data(), a.y.data(), a.z.data()}; }
+cpu::Vectors pointers(Planes<float>& a) { return {a.x.data(), a.y.data(), a.z.data()}; }
+
+struct CpuCloth {
+    explicit CpuCloth(const ClothModel& model) : plain(model), springs(model, plain.layout)
+    {
+        plain.spring_force = Planes<float>(springs.first.size());
+    }
+    PlainCloth<float> plain;
+    SpringArrays springs;
+};
+
+/// One call with all it needs; `part` runs a piece of it.
+struct Work {
+    enum class Unit { rows, springs, values } unit = Unit::values;
+    std::size_t size = 0;       ///< in units
+    std::size_t multiple = 1;   ///< parts begin at multiples of this
+    std::size_t weight = 1;     ///< nodes or springs in a unit, for the decision how many threads are worth it
+    const Call* call = nullptr;
+    CpuCloth* cloth = nullptr;
+    const Kernels* kernels = nullptr;
+    const StepConstants<float>* constants = nullptr;
+    std::span<const Laws<float>::Collider> colliders;
+
+    Work(const Call& c, CpuCloth& target, const Kernels& k, const StepConstants<float>& values,
+         std::span<const Laws<float>::Collider> shapes)
+        : call(&c), cloth(&target), kernels(&k), constants(&values), colliders(shapes)
+    {
+        const PlainCloth<float>& plain = cloth->plain;
+        if (call->pass == Pass::sheet_step || call->pass == Pass::sheet_wind) {
+            unit = Unit::rows;
+            size = plain.layout.rows;
+            weight = plain.layout.columns;
+        } else if (call->pass == Pass::spring_force) {
+            unit = Unit::springs;
+            size = cloth->springs.first.size();
+            multiple = spring_pack;
+        } else {
+            size = plain.size_of(*call);
+            if (description_of(call->pass).size == PassSize::block || call->pass == Pass::sheet_measure ||
+                call->pass == Pass::list_measure)
+                weight = block_size;
+        }
+    }
+
+    std::size_t part_count(std::size_t threads) const
+    {
+        const std::size_t worthwhile = std::max<std::size_t>(1, size * weight / least_work_per_thread);
+        return std::min({threads, worthwhile, std::max<std::size_t>(1, size / multiple)});
+    }
+
+    void part(std::size_t index, std::size_t count) const
+    {
+        const cpu::DenormalsFlushed flushed;
+        const std::size_t steps = size / multiple;
+        const std::size_t begin = steps * index / count * multiple;
+        const std::size_t end = index + 1 == count ? size : steps * (index + 1) / count * multiple;
+        if (unit == Unit::rows)
+            rows(begin, end);
+        else if (unit == Unit::springs)
+            springs(begin, end);
+        else
+            cloth->plain.run(*call, *constants, colliders, begin, end);
+    }
+
+private:
+    void rows(std::size_t begin, std::size_t end) const
+    {
+        PlainCloth<float>& plain = cloth->plain;
+        const std::uint32_t now = call->parity, next = 1 - now;
+        cpu::SheetArguments arguments;
+        arguments.layout = &plain.layout;
+        arguments.position = pointers(std::as_const(plain.position[now]));
+        arguments.velocity = pointers(std::as_const(plain.velocity[now]));
+        arguments.next_position = pointers(plain.position[next]);
+        arguments.next_velocity = pointers(plain.velocity[next]);
+        arguments.external_force = plain.model.feels_air() ? pointers(std::as_const(plain.external_force))
+                                                           : cpu::ConstVectors{nullptr, nullptr, nullptr};
+        arguments.wind_force = pointers(plain.external_force);
+        arguments.inverse_mass = plain.inverse_mass.data();
+        arguments.constants = constants;
+        arguments.colliders = colliders.data();
+        arguments.collider_count = colliders.size();
+        (call->pass == Pass::sheet_step ? kernels->sheet_step : kernels->sheet_wind)(arguments, begin, end);
+    }
+
+    void springs(std::size_t begin, std::size_t end) const
+    {
+        PlainCloth<float>& plain = cloth->plain;
+        const SpringArrays& list = cloth->springs;
+        kernels->spring_forces({pointers(std::as_const(plain.position[call->parity])),
+                                pointers(std::as_const(plain.velocity[call->parity])), pointers(plain.spring_force),
+                                list.first.data(), list.second.data(), list.rest_length.data(), list.stiffness.data(),
+                                list.damping.data()},
+                               begin, end);
+    }
+};
+
+class CpuRunner final : public PassRunner {
+public:
+    CpuRunner(std::span<const ClothModel> models, const SimulationOptions& options)
+        : kernels_(cpu::choose_kernels(options.instruction_set)), jobs_(options.job_system)
+    {
+        if (!jobs_) {
+            own_jobs_ = cpu::make_job_system(options.threads);
+            jobs_ = own_jobs_.get();
+        }
+        cloths_.reserve(models.size());
+        for (const ClothModel& model : models) {
+            cloths_.emplace_back(model);
+            constants_.emplace_back(model, 0.0);
+        }
+    }
+
+    void run(const Program& program, const FrameInput& input) override
+    {
+        for (std::size_t c = 0; c < cloths_.size(); ++c)
+            constants_[c] = StepConstants<float>(cloths_[c].plain.model, input.step_length);
+        std::uint32_t known_index = ~0u;
+        for (const Call& call : program.calls) {
+            if (call.index != known_index) {
+                colliders_.clear();
+                for (const PlacedCollider& placed : input.colliders_at(call.index))
+                    colliders_.push_back(make_collider<float>(placed));
+                known_index = call.index;
+            }
+            const auto start = std::chrono::steady_clock::now();
+            run(Work(call, cloths_[call.cloth], kernels_, constants_[call.cloth], colliders_));
+            const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
+            clock_.add(call.pass, spent.count());
+        }
+    }
+    void read(std::uint32_t cloth, Resource resource, std::uint32_t parity, std::vector<float>& values) override
+    {
+        cloths_[cloth].plain.read(resource, parity, values);
+    }
+    MeasureTotals measures(std::uint32_t cloth) override { return cloths_[cloth].plain.totals(); }
+    std::vector<PassTime> pass_times() const override { return clock_.times(); }
+    std::string device_name() const override
+    {
+        return std::string("CPU, ") + kernels_.name + ", " + std::to_string(thread_count()) +
+               (thread_count() == 1 ? " thread" : " threads");
+    }
+    unsigned thread_count() const override { return jobs_->thread_count(); }
+
+private:
+    void run(const Work& work)
+    {
+        struct Context {
+            const Work& work;
+            std::size_t count;
+        } context{work, work.part_count(jobs_->thread_count())};
+        if (context.count == 1) return work.part(0, 1);
+        jobs_->run(
+            static_cast<unsigned>(context.count),
+            [](void* pointer, unsigned index) {
+                const auto& shared = *static_cast<const Context*>(pointer);
+                shared.work.part(index, shared.count);
+            },
+            &context);
+    }
+
+    const Kernels& kernels_;
+    JobSystem* jobs_;
+    std::unique_ptr<JobSystem> own_jobs_;
+    std::vector<CpuCloth> cloths_;
+    std::vector<StepConstants<float>> constants_;
+    std::vector<Laws<float>::Collider> colliders_;
+    PassClock clock_;
+};
+
+}  // namespace
+
+std::unique_ptr<PassRunner> make_cpu_runner(std::span<const ClothModel> cloths, const SimulationOptions& options)
+{
+    return std::make_unique<CpuRunner>(cloths, options);
+}
+
+}  // namespace pliant

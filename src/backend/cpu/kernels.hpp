@@ -1,0 +1,54 @@
+// The hot passes of the CPU backend, compiled once for each instruction set and chosen at start-up.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "backend/host/plain_cloth.hpp"
+
+namespace pliant::cpu {
+
+/// Coordinates of a set of vectors.
+struct ConstVectors {
+    const float *x, *y, *z;
+};
+struct Vectors {
+    float *x, *y, *z;
+};
+
+/// A sheet's step or wind; pointers are to NodeLayout planes.
+struct SheetArguments {
+    const NodeLayout* layout;
+    ConstVectors position, velocity;
+    Vectors next_position, next_velocity;
+    ConstVectors external_force;  ///< x is null without air
+    Vectors wind_force;           ///< where the wind pass writes
+    const float* inverse_mass;
+    const StepConstants<float>* constants;
+    const Laws<float>::Collider* colliders;
+    std::size_t collider_count;
+};
+
+/// Forces of springs, whose ends are offsets into the planes. All arrays are padded to whole packs of 16 with springs
+/// of no length, and `first` and `end` of a call are multiples of 16.
+struct SpringArguments {
+    ConstVectors position, velocity;
+    Vectors force;
+    const std::uint32_t *first, *second;
+    const float *rest_length, *stiffness, *damping;
+};
+
+struct Kernels {
+    const char* name;
+    void (*sheet_step)(const SheetArguments&, std::size_t first_row, std::size_t end_row);
+    void (*sheet_wind)(const SheetArguments&, std::size_t first_row, std::size_t end_row);
+    void (*spring_forces)(const SpringArguments&, std::size_t first, std::size_t end);
+};
+
+/// Those this build has and this machine can run, narrowest first; never empty.
+std::span<const Kernels* const> available_kernels();
+/// By name, or the widest for an empty name; throws Error(bad_usage) that lists the names of this machine.
+const Kernels& choose_kernels(const std::string& name);
+
+}  // namespace pliant::cpu

@@ -1,0 +1,177 @@
+// The kernels themselves. Included by one file per instruction set, which defines PLIANT_LANES and PLIANT_KERNELS.
+// Everything is in an unnamed namespace and uses nothing of the standard library: what is compiled here with wide
+// instructions must not be shared with files that run before the instruction set is known.
+#include "backend/cpu/kernels.hpp"
+#include "backend/cpu/pack.hpp"
+
+namespace pliant::cpu {
+namespace {
+
+constexpr int width = PLIANT_LANES;
+using Number = Pack<width>;
+using L = Laws<Number>;
+using Vector = Vector3<Number>;
+
+template <class Pointers>
+inline Vector load(const Pointers& from, std::ptrdiff_t offset)
+{
+    return {Number::load(from.x + offset), Number::load(from.y + offset), Number::load(from.z + offset)};
+}
+inline void store(const Vectors& to, std::ptrdiff_t offset, const Vector& a)
+{
+    a.x.store(to.x + offset);
+    a.y.store(to.y + offset);
+    a.z.store(to.z + offset);
+}
+inline Vector broadcast(const Vector3<float>& a) { return {Number(a.x), Number(a.y), Number(a.z)}; }
+
+inline L::Collider broadcast(const Laws<float>::Collider& a)
+{
+    L::Collider c;
+    c.kind = a.kind;
+    c.response = a.response;
+    c.centre = broadcast(a.centre);
+    c.axis_x = broadcast(a.axis_x);
+    c.axis_y = broadcast(a.axis_y);
+    c.axis_z = broadcast(a.axis_z);
+    c.half_size = broadcast(a.half_size);
+    c.radius = Number(a.radius);
+    c.friction = Number(a.friction);
+    c.velocity = broadcast(a.velocity);
+    c.spin = broadcast(a.spin);
+    return c;
+}
+
+/// Lanes whose column, shifted, is on the sheet.
+inline L::mask lanes_on_sheet(std::ptrdiff_t column, std::ptrdiff_t columns)
+{
+    LaneTypes<width>::Integers lane;
+    for (int k = 0; k < width; ++k) lane[k] = k;
+    const auto first = static_cast<std::int32_t>(column), end = static_cast<std::int32_t>(columns);
+    return {(lane + first >= 0) & (lane + first < end)};
+}
+
+struct Block {
+    std::ptrdiff_t row, column, offset;
+    bool interior;  ///< all lanes have both neighbours two to the left and two to the right
+};
+
+// As NodeLayout::offset, whose own code must not be compiled here.
+inline std::ptrdiff_t offset_of(const NodeLayout& layout, std::ptrdiff_t row, std::ptrdiff_t column)
+{
+    const auto border = static_cast<std::ptrdiff_t>(NodeLayout::border_rows);
+    return (row + border) * static_cast<std::ptrdiff_t>(layout.stride) + static_cast<std::ptrdiff_t>(NodeLayout::pad) + column;
+}
+
+/// Visits a sheet's rows in packs: f(block).
+template <class Function>
+inline void for_each_block(const SheetArguments& a, std::size_t first_row, std::size_t end_row, Function&& f)
+{
+    const auto columns = static_cast<std::ptrdiff_t>(a.layout->columns);
+    for (std::size_t row = first_row; row < end_row; ++row)
+        for (std::ptrdiff_t column = 0; column < columns; column += width)
+            f(Block{static_cast<std::ptrdiff_t>(row), column,
+                    offset_of(*a.layout, static_cast<std::ptrdiff_t>(row), column),
+                    column >= 2 && column + width + 2 <= columns});
+}
+
+/// Sum of the spring forces on a pack of nodes, in canonical order.
+template <bool interior>
+inline Vector spring_forces_on(const SheetArguments& a, const Block& block, const Vector& x, const Vector& v)
+{
+    const StepConstants<float>& c = *a.constants;
+    const auto rows = static_cast<std::ptrdiff_t>(a.layout->rows), columns = static_cast<std::ptrdiff_t>(a.layout->columns);
+    const auto stride = static_cast<std::ptrdiff_t>(a.layout->stride);
+    const Vector zero{Number(0.0f), Number(0.0f), Number(0.0f)};
+    Vector force = zero;
+#pragma GCC unroll 12
+    for (int n = 0; n < 12; ++n) {
+        const SheetNeighbour& neighbour = sheet_neighbours[n];
+        const std::ptrdiff_t row = block.row + neighbour.row_offset;
+        if (row < 0 || row >= rows) continue;
+        const std::ptrdiff_t other = block.offset + neighbour.row_offset * stride + neighbour.column_offset;
+        const auto k = static_cast<std::size_t>(neighbour.spring_class);
+        Vector f = L::spring_force(x, load(a.position, other), v, load(a.velocity, other),
+                                   Number(c.rest_lengths[neighbour.rest]), Number(c.stiffness[k]), Number(c.damping[k]));
+        if (!interior && neighbour.column_offset != 0)
+            f = L::choose(lanes_on_sheet(block.column + neighbour.column_offset, columns), f, zero);
+        force = force + f;
+    }
+    return force;
+}
+
+void sheet_step(const SheetArguments& a, std::size_t first_row, std::size_t end_row)
+{
+    const StepConstants<float>& c = *a.constants;
+    const Vector gravity = broadcast(c.gravity);
+    const Number dt(c.dt), decay(c.decay), thickness(c.thickness);
+    for_each_block(a, first_row, end_row, [&](const Block& block) {
+        const L::Motion now = {load(a.position, block.offset), load(a.velocity, block.offset)};
+        const Number w = Number::load(a.inverse_mass + block.offset);
+        Vector force = block.interior ? spring_forces_on<true>(a, block, now.position, now.velocity)
+                                      : spring_forces_on<false>(a, block, now.position, now.velocity);
+        if (a.external_force.x) force = force + load(a.external_force, block.offset);
+        L::Motion next;
+        next.velocity = L::velocity_step(now.velocity, force, w, gravity, decay, dt);
+        next.position = L::position_step(now.position, next.velocity, dt);
+        for (std::size_t k = 0; k < a.collider_count; ++k)
+            next = L::contact_step(now, next, broadcast(a.colliders[k]), thickness, w, dt);
+        store(a.next_position, block.offset, next.position);
+        store(a.next_velocity, block.offset, next.velocity);
+    });
+}
+
+/// Triangles around a node of a sheet in the order of ClothModel::triangles, by offsets of (row, column).
+struct SheetTriangle {
+    int quad_row, quad_column;  ///< of the quad's first corner, against the node
+    bool lower;                 ///< (b, c, d) of the quad, else (a, c, b)
+};
+constexpr SheetTriangle sheet_triangles[6] = {{-1, -1, true}, {-1, 0, false}, {-1, 0, true},
+                                              {0, -1, false}, {0, -1, true},  {0, 0, false}};
+
+void sheet_wind(const SheetArguments& a, std::size_t first_row, std::size_t end_row)
+{
+    const StepConstants<float>& c = *a.constants;
+    const Vector wind = broadcast(c.wind);
+    const Number density(c.air_density), drag(c.drag), lift(c.lift);
+    const auto rows = static_cast<std::ptrdiff_t>(a.layout->rows), columns = static_cast<std::ptrdiff_t>(a.layout->columns);
+    const auto stride = static_cast<std::ptrdiff_t>(a.layout->stride);
+    const Vector zero{Number(0.0f), Number(0.0f), Number(0.0f)};
+    for_each_block(a, first_row, end_row, [&](const Block& block) {
+        Vector force = zero;
+        for (const SheetTriangle& t : sheet_triangles) {
+            const std::ptrdiff_t quad_row = block.row + t.quad_row;
+            if (quad_row < 0 || quad_row + 1 >= rows) continue;
+            const std::ptrdiff_t quad = block.offset + t.quad_row * stride + t.quad_column;
+            const std::ptrdiff_t i = t.lower ? quad + 1 : quad, j = quad + stride, k = t.lower ? j + 1 : quad + 1;
+            Vector f = L::wind_force(load(a.position, i), load(a.position, j), load(a.position, k),
+                                     load(a.velocity, i), load(a.velocity, j), load(a.velocity, k), wind, density, drag,
+                                     lift);
+            if (!block.interior) f = L::choose(lanes_on_sheet(block.column + t.quad_column, columns - 1), f, zero);
+            force = force + f;
+        }
+        // Padding must stay zero: the last pack of a row reaches beyond the sheet.
+        if (!block.interior) force = L::choose(lanes_on_sheet(block.column, columns), force, zero);
+        store(a.wind_force, block.offset, force);
+    });
+}
+
+void spring_forces(const SpringArguments& a, std::size_t first, std::size_t end)
+{
+    const auto gather = [](const ConstVectors& from, const std::uint32_t* index) {
+        return Vector{Number::gather(from.x, index), Number::gather(from.y, index), Number::gather(from.z, index)};
+    };
+    for (std::size_t s = first; s < end; s += width)
+        store(a.force, static_cast<std::ptrdiff_t>(s),
+              L::spring_force(gather(a.position, a.first + s), gather(a.position, a.second + s),
+                              gather(a.velocity, a.first + s), gather(a.velocity, a.second + s),
+                              Number::load(a.rest_length + s), Number::load(a.stiffness + s),
+                              Number::load(a.damping + s)));
+}
+
+}  // namespace
+
+extern const Kernels PLIANT_KERNELS;
+const Kernels PLIANT_KERNELS = {PLIANT_KERNELS_NAME, sheet_step, sheet_wind, spring_forces};
+
+}  // namespace pliant::cpu

@@ -1,0 +1,103 @@
+// W floats that are computed at once: a thin layer over the compilers' vector extension, which turns into SSE, AVX,
+// AVX-512 or NEON instructions by the flags of the file that includes it. Every width belongs to one such file, so
+// that no instruction set leaks into another through shared templates.
+#pragma once
+
+#include <cstdint>
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+#include "laws/laws.hpp"
+
+namespace pliant {
+
+/// The compiler's vector types. Spelled out, because GCC applies vector_size too late when the size is a parameter.
+template <int W>
+struct LaneTypes;
+#define PLIANT_LANE_TYPES(W)                                                                   \
+    template <>                                                                                \
+    struct LaneTypes<W> {                                                                      \
+        typedef float Floats __attribute__((vector_size(W * 4)));                              \
+        typedef float UnalignedFloats __attribute__((vector_size(W * 4), aligned(4), may_alias)); \
+        typedef std::int32_t Integers __attribute__((vector_size(W * 4)));                     \
+        typedef std::uint32_t Bits __attribute__((vector_size(W * 4)));                        \
+    };
+PLIANT_LANE_TYPES(4)
+PLIANT_LANE_TYPES(8)
+PLIANT_LANE_TYPES(16)
+#undef PLIANT_LANE_TYPES
+
+template <int W>
+struct PackMask {
+    typename LaneTypes<W>::Integers lanes;  // 0 or -1
+};
+
+template <int W>
+struct Pack {
+    using Lanes = typename LaneTypes<W>::Floats;
+    using UnalignedLanes = typename LaneTypes<W>::UnalignedFloats;
+    using Mask = PackMask<W>;
+    Lanes lanes;
+
+    Pack() = default;
+    Pack(Lanes a) : lanes(a) {}
+    Pack(float a) : lanes(a - Lanes{}) {}
+    Pack(double) = delete;  // a literal without f, or a narrowing, does not belong in a law
+
+    static Pack load(const float* p) { return Lanes(*reinterpret_cast<const UnalignedLanes*>(p)); }
+    void store(float* p) const { *reinterpret_cast<UnalignedLanes*>(p) = lanes; }
+    static Pack gather(const float* base, const std::uint32_t* index)
+    {
+        Lanes a;
+        for (int k = 0; k < W; ++k) a[k] = base[index[k]];
+        return a;
+    }
+
+    friend Pack operator+(Pack a, Pack b) { return a.lanes + b.lanes; }
+    friend Pack operator-(Pack a, Pack b) { return a.lanes - b.lanes; }
+    friend Pack operator*(Pack a, Pack b) { return a.lanes * b.lanes; }
+    friend Pack operator-(Pack a) { return -a.lanes; }
+    friend Mask operator>(Pack a, Pack b) { return {a.lanes > b.lanes}; }
+    friend Mask operator<(Pack a, Pack b) { return {a.lanes < b.lanes}; }
+    friend Mask operator>=(Pack a, Pack b) { return {a.lanes >= b.lanes}; }
+};
+
+template <int W>
+struct NumberTraits<Pack<W>> {
+    using Number = Pack<W>;
+    using Mask = PackMask<W>;
+    using Bits = typename LaneTypes<W>::Bits;
+    static constexpr int inverse_sqrt_steps = NumberTraits<float>::inverse_sqrt_steps;
+
+    static Number inverse_sqrt_seed(Number a)
+    {
+        const Bits seed = 0x5f375a86u - (reinterpret_cast<Bits>(a.lanes) >> 1);
+        return reinterpret_cast<typename Number::Lanes>(seed);
+    }
+    static Number choose(Mask m, Number a, Number b) { return m.lanes ? a.lanes : b.lanes; }
+    static Mask is_finite(Number a)
+    {
+        const Bits exponent = reinterpret_cast<Bits>(a.lanes) & 0x7f800000u;
+        return {exponent != 0x7f800000u};
+    }
+    static Mask both(Mask a, Mask b) { return {a.lanes & b.lanes}; }
+    static bool any_lane(Mask m)
+    {
+#if defined(__AVX512F__)
+        if constexpr (W == 16) return _mm512_test_epi32_mask((__m512i)m.lanes, (__m512i)m.lanes) != 0;
+#endif
+#if defined(__AVX__)
+        if constexpr (W == 8) return _mm256_movemask_ps((__m256)m.lanes) != 0;
+#endif
+#if defined(__SSE2__)
+        if constexpr (W == 4) return _mm_movemask_ps((__m128)m.lanes) != 0;
+#endif
+        for (int k = 0; k < W; ++k)
+            if (m.lanes[k]) return true;
+        return false;
+    }
+};
+
+}  // namespace pliant

@@ -1,0 +1,71 @@
+// The one interface of all backends: hold the state of some cloths, run programs on it, give it back when asked.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "body/cloth_model.hpp"
+#include "body/collider_motion.hpp"
+#include "pliant/simulation.hpp"
+#include "solve/pass.hpp"
+
+namespace pliant {
+
+/// What changes from frame to frame.
+struct FrameInput {
+    double step_length = 0;                         ///< s
+    std::uint32_t collider_count = 0;
+    std::span<const PlacedCollider> colliders;      ///< collider_count for each step, or once when `colliders_rest`
+    bool colliders_rest = true;                     ///< the same at every step
+
+    /// Colliders at the end of a step of the frame; the calls that know no collider may ask with any index.
+    std::span<const PlacedCollider> colliders_at(std::uint32_t step) const
+    {
+        const std::size_t first = colliders_rest ? 0 : std::size_t{step} * collider_count;
+        return first + collider_count <= colliders.size() ? colliders.subspan(first, collider_count)
+                                                          : std::span<const PlacedCollider>{};
+    }
+};
+
+/// A cloth's measures, merged over its nodes; see laws/measure.law.glsl.
+struct MeasureTotals {
+    double max_stretch = -1, max_penetration = 0, max_speed2 = 0, stretch_sum = 0;
+    double kinetic_energy = 0, elastic_energy = 0, height_moment = 0, non_finite = 0;
+};
+
+class PassRunner {
+public:
+    virtual ~PassRunner() = default;
+
+    /// Runs the calls in order. Throws only when a device is lost.
+    virtual void run(const Program& program, const FrameInput& input) = 0;
+
+    /// Copies a resource into floats, as many per entry as Resource documents, in node, spring or level order.
+    virtual void read(std::uint32_t cloth, Resource resource, std::uint32_t parity, std::vector<float>& values) = 0;
+    /// The root of the tree of measures after a program that computed it.
+    virtual MeasureTotals measures(std::uint32_t cloth) = 0;
+
+    virtual std::vector<PassTime> pass_times() const = 0;
+    virtual std::string device_name() const = 0;
+    virtual unsigned thread_count() const = 0;
+    virtual std::uint64_t validation_messages() const { return 0; }
+};
+
+std::unique_ptr<PassRunner> make_reference_runner(std::span<const ClothModel> cloths);
+std::unique_ptr<PassRunner> make_cpu_runner(std::span<const ClothModel> cloths, const SimulationOptions& options);
+
+/// Milliseconds by pass.
+class PassClock {
+public:
+    PassClock();
+    void add(Pass pass, double milliseconds, std::uint64_t calls = 1);
+    std::vector<PassTime> times() const;  ///< of the passes that ran, in table order
+
+private:
+    std::vector<PassTime> times_;
+};
+
+}  // namespace pliant

@@ -1,0 +1,51 @@
+// The oracle: serial, double, plain loops.
+#include <chrono>
+
+#include "backend/host/plain_cloth.hpp"
+#include "backend/pass_runner.hpp"
+
+namespace pliant {
+namespace {
+
+class ReferenceRunner final : public PassRunner {
+public:
+    explicit ReferenceRunner(std::span<const ClothModel> models) : cloths_(models.begin(), models.end()) {}
+
+    void run(const Program& program, const FrameInput& input) override
+    {
+        std::vector<StepConstants<double>> constants;
+        for (const auto& cloth : cloths_) constants.emplace_back(cloth.model, input.step_length);
+        std::vector<Laws<double>::Collider> colliders;
+        for (const Call& call : program.calls) {
+            colliders.clear();
+            for (const PlacedCollider& placed : input.colliders_at(call.index))
+                colliders.push_back(make_collider<double>(placed));
+            const auto start = std::chrono::steady_clock::now();
+            auto& cloth = cloths_[call.cloth];
+            cloth.run(call, constants[call.cloth], colliders, 0, cloth.size_of(call));
+            const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
+            clock_.add(call.pass, spent.count());
+        }
+    }
+    void read(std::uint32_t cloth, Resource resource, std::uint32_t parity, std::vector<float>& values) override
+    {
+        cloths_[cloth].read(resource, parity, values);
+    }
+    MeasureTotals measures(std::uint32_t cloth) override { return cloths_[cloth].totals(); }
+    std::vector<PassTime> pass_times() const override { return clock_.times(); }
+    std::string device_name() const override { return "CPU, one thread, double"; }
+    unsigned thread_count() const override { return 1; }
+
+private:
+    std::vector<PlainCloth<double>> cloths_;
+    PassClock clock_;
+};
+
+}  // namespace
+
+std::unique_ptr<PassRunner> make_reference_runner(std::span<const ClothModel> cloths)
+{
+    return std::make_unique<ReferenceRunner>(cloths);
+}
+
+}  // namespace pliant

@@ -1,0 +1,195 @@
+#include "backend/vulkan/cloth_buffers.hpp"
+
+#include <cmath>
+#include <cstring>
+
+namespace pliant::vulkan {
+namespace {
+
+using Usage = vk::BufferUsageFlagBits;
+
+struct Float4 {
+    float x = 0, y = 0, z = 0, w = 0;
+};
+Float4 float4(Vector3<float> a, float w = 0) { return {a.x, a.y, a.z, w}; }
+Float4 float4(Vec3 a, float w) { return {a.x, a.y, a.z, w}; }
+
+/// As the uniform block of shaders/cloth.glsl.
+struct Parameters {
+    std::uint32_t rows = 0, columns = 0, node_count = 0, spring_count = 0;
+    std::uint32_t collider_count = 0, colliders_rest = 0, has_air = 0, padding = 0;
+    Float4 gravity_dt, gravity_direction, wind_density, drag_lift_thickness, stiffness, spring_damping;
+    Float4 rest_lengths, rest_lengths_more;
+};
+
+}  // namespace
+
+vk::raii::DescriptorSetLayout make_cloth_layout(const Device& device)
+{
+    std::vector<vk::DescriptorSetLayoutBinding> bindings;
+    for (std::uint32_t b = 0; b < binding_count; ++b)
+        bindings.emplace_back(b, b == 0 ? vk::DescriptorType::eUniformBuffer : vk::DescriptorType::eStorageBuffer, 1,
+                              vk::ShaderStageFlagBits::eCompute);
+    return {device.handle(), vk::DescriptorSetLayoutCreateInfo({}, bindings)};
+}
+
+Buffer ClothBuffers::filled(const Device& device, const void* data, std::size_t bytes, const char* name) const
+{
+    Buffer buffer = device.make_buffer(bytes, Usage::eStorageBuffer, Memory::device, name);
+    device.write(buffer, data, bytes);
+    return buffer;
+}
+
+ClothBuffers::ClothBuffers(const Device& device, const ClothModel& model, const vk::raii::DescriptorSetLayout& layout)
+    : model_(&model), tree_(model.node_count())
+{
+    const std::size_t nodes = model.node_count();
+    std::vector<Float4> values(nodes);
+    const auto node_buffer = [&](const char* name) { return filled(device, values.data(), nodes * sizeof(Float4), name); };
+    for (std::size_t i = 0; i < nodes; ++i)
+        values[i] = float4(model.positions[i], static_cast<float>(model.inverse_masses[i]));
+    for (auto& buffer : position_) buffer = node_buffer("position");
+    for (std::size_t i = 0; i < nodes; ++i) values[i] = float4(model.velocities[i], model.masses[i]);
+    for (auto& buffer : velocity_) buffer = node_buffer("velocity");
+
+    parameters_ = device.make_buffer(sizeof(Parameters), Usage::eUniformBuffer, Memory::upload, "parameters");
+    normal_ = device.make_buffer(nodes * sizeof(Float4), Usage::eStorageBuffer, Memory::device, "normal");
+    strain_ = device.make_buffer(nodes * sizeof(float), Usage::eStorageBuffer, Memory::device, "strain");
+    measures_ = device.make_buffer(tree_.value_count * 2 * sizeof(Float4), Usage::eStorageBuffer, Memory::device, "measures");
+    root_ = device.make_buffer(2 * sizeof(Float4), Usage::eTransferDst, Memory::readback, "measured total");
+    if (model.feels_air())
+        external_force_ = device.make_buffer(nodes * sizeof(Float4), Usage::eStorageBuffer, Memory::device, "external force");
+
+    if (!model.node_centric()) {
+        std::vector<std::array<std::uint32_t, 2>> ends, around;
+        std::vector<std::array<float, 2>> rest_class;
+        for (const Spring& spring : model.springs) {
+            ends.push_back({spring.i, spring.j});
+            rest_class.push_back({static_cast<float>(spring.rest_length), static_cast<float>(spring.spring_class)});
+        }
+        for (const Neighbour& neighbour : model.neighbours.entries) around.push_back({neighbour.node, neighbour.spring});
+        const auto& start = model.neighbours.start;
+        springs_ = filled(device, ends.data(), ends.size() * sizeof(ends[0]), "springs");
+        spring_rest_class_ = filled(device, rest_class.data(), rest_class.size() * sizeof(rest_class[0]), "rest lengths");
+        neighbour_start_ = filled(device, start.data(), start.size() * sizeof(start[0]), "neighbour rows");
+        neighbours_ = filled(device, around.data(), around.size() * sizeof(around[0]), "neighbours");
+        spring_force_ = device.make_buffer(ends.size() * sizeof(Float4), Usage::eStorageBuffer, Memory::device, "spring force");
+    }
+    if (!model.is_sheet()) {
+        const auto triangles = model.triangles();
+        const auto &start = model.node_triangles.start, &around = model.node_triangles.entries;
+        triangles_ = filled(device, triangles.data(), triangles.size_bytes(), "triangles");
+        triangle_start_ = filled(device, start.data(), start.size() * sizeof(start[0]), "triangle rows");
+        node_triangles_ = filled(device, around.data(), around.size() * sizeof(around[0]), "triangles around nodes");
+    }
+
+    const vk::DescriptorPoolSize sizes[] = {{vk::DescriptorType::eUniformBuffer, 2},
+                                            {vk::DescriptorType::eStorageBuffer, 2 * (binding_count - 1)}};
+    pool_ = {device.handle(), vk::DescriptorPoolCreateInfo(vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 2, sizes)};
+    const vk::DescriptorSetLayout layouts[] = {*layout, *layout};
+    for (auto& set : vk::raii::DescriptorSets(device.handle(), vk::DescriptorSetAllocateInfo(*pool_, layouts)))
+        sets_.push_back(std::move(set));
+
+    for (std::uint32_t parity = 0; parity < 2; ++parity) {
+        const std::pair<Binding, const Buffer*> bound[] = {
+            {Binding::parameters, &parameters_},
+            {Binding::position_in, &position_[parity]},
+            {Binding::velocity_in, &velocity_[parity]},
+            {Binding::position_out, &position_[1 - parity]},
+            {Binding::velocity_out, &velocity_[1 - parity]},
+            // Bound in any case, since the step reads it when there is air.
+            {Binding::external_force, model.feels_air() ? &external_force_ : &normal_},
+            {Binding::springs, &springs_},
+            {Binding::spring_rest_class, &spring_rest_class_},
+            {Binding::neighbour_start, &neighbour_start_},
+            {Binding::neighbours, &neighbours_},
+            {Binding::triangles, &triangles_},
+            {Binding::triangle_start, &triangle_start_},
+            {Binding::node_triangles, &node_triangles_},
+            {Binding::spring_force, &spring_force_},
+            {Binding::normal, &normal_},
+            {Binding::strain, &strain_},
+            {Binding::measures, &measures_},
+        };
+        for (const auto& [binding, buffer] : bound) {
+            if (buffer->size == 0) continue;  // this kind of cloth has none
+            const auto descriptor = buffer->descriptor();
+            const auto type =
+                binding == Binding::parameters ? vk::DescriptorType::eUniformBuffer : vk::DescriptorType::eStorageBuffer;
+            device.handle().updateDescriptorSets(
+                vk::WriteDescriptorSet(*sets_[parity], static_cast<std::uint32_t>(binding), 0, 1, type, nullptr, &descriptor), {});
+        }
+    }
+}
+
+void ClothBuffers::bind_colliders(const Device& device, const Buffer& colliders)
+{
+    const auto descriptor = colliders.descriptor();
+    for (const auto& set : sets_)
+        device.handle().updateDescriptorSets(
+            vk::WriteDescriptorSet(*set, static_cast<std::uint32_t>(Binding::colliders), 0, 1,
+                                   vk::DescriptorType::eStorageBuffer, nullptr, &descriptor),
+            {});
+}
+
+void ClothBuffers::set_parameters(double step_length, std::uint32_t collider_count, bool colliders_rest)
+{
+    const StepConstants<float> c(*model_, step_length);
+    Parameters p;
+    if (model_->sheet) {
+        p.rows = model_->sheet->rows;
+        p.columns = model_->sheet->columns;
+    }
+    p.node_count = model_->node_count();
+    p.spring_count = static_cast<std::uint32_t>(model_->springs.size());
+    p.collider_count = collider_count;
+    p.colliders_rest = colliders_rest ? 1 : 0;
+    p.has_air = model_->feels_air() ? 1 : 0;
+    p.gravity_dt = float4(c.gravity, c.dt);
+    p.gravity_direction = float4(c.gravity_direction, c.decay);
+    p.wind_density = float4(c.wind, c.air_density);
+    p.drag_lift_thickness = {c.drag, c.lift, c.thickness, 0};
+    p.stiffness = {c.stiffness[0], c.stiffness[1], c.stiffness[2], 0};
+    p.spring_damping = {c.damping[0], c.damping[1], c.damping[2], 0};
+    p.rest_lengths = {c.rest_lengths[0], c.rest_lengths[1], c.rest_lengths[2], c.rest_lengths[3]};
+    p.rest_lengths_more.x = c.rest_lengths[4];
+    std::memcpy(parameters_.mapped, &p, sizeof p);
+}
+
+const Buffer& ClothBuffers::buffer(Resource resource, std::uint32_t parity) const
+{
+    switch (resource) {
+        case Resource::position: return position_[parity];
+        case Resource::velocity: return velocity_[parity];
+        case Resource::next_position: return position_[1 - parity];
+        case Resource::next_velocity: return velocity_[1 - parity];
+        case Resource::external_force: return external_force_;
+        case Resource::spring_force: return spring_force_;
+        case Resource::normal: return normal_;
+        case Resource::strain: return strain_;
+        case Resource::measures: return measures_;
+        case Resource::colliders: break;
+    }
+    throw Error(ErrorKind::bad_usage, "this resource is not a cloth's");
+}
+
+std::size_t ClothBuffers::entry_count(Resource resource) const
+{
+    if (resource == Resource::spring_force) return model_->springs.size();
+    return resource == Resource::measures ? tree_.value_count : model_->node_count();
+}
+
+void ClothBuffers::record_root_copy(const vk::raii::CommandBuffer& commands) const
+{
+    commands.copyBuffer(*measures_, *root_,
+                        vk::BufferCopy(tree_.levels.back().first * 2 * sizeof(Float4), 0, 2 * sizeof(Float4)));
+}
+
+MeasureTotals ClothBuffers::totals() const
+{
+    Float4 root[2];
+    std::memcpy(root, root_.mapped, sizeof root);
+    return {root[0].x, root[0].y, root[0].z, root[0].w, root[1].x, root[1].y, root[1].z, root[1].w};
+}
+
+}  // namespace pliant::vulkan

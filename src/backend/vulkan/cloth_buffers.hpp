@@ -1,0 +1,71 @@
+// One cloth on the device: one buffer per attribute, and the sets that bind them for either copy of the state.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "backend/host/plain_cloth.hpp"
+#include "backend/vulkan/device.hpp"
+#include "body/cloth_model.hpp"
+#include "solve/pass.hpp"
+
+namespace pliant::vulkan {
+
+/// Bindings of shaders/*.glsl.
+enum class Binding : std::uint32_t {
+    parameters = 0,
+    position_in = 1,
+    velocity_in = 2,
+    position_out = 3,
+    velocity_out = 4,
+    external_force = 5,
+    colliders = 6,
+    springs = 7,
+    spring_rest_class = 8,
+    neighbour_start = 9,
+    neighbours = 10,
+    triangles = 11,
+    triangle_start = 12,
+    node_triangles = 13,
+    spring_force = 14,
+    normal = 15,
+    strain = 16,
+    measures = 17,
+};
+constexpr std::uint32_t binding_count = 18;
+
+vk::raii::DescriptorSetLayout make_cloth_layout(const Device& device);
+
+class ClothBuffers {
+public:
+    ClothBuffers(const Device& device, const ClothModel& model, const vk::raii::DescriptorSetLayout& layout);
+
+    const ClothModel& model() const { return *model_; }
+    const MeasureTree& tree() const { return tree_; }
+    vk::DescriptorSet set(std::uint32_t parity) const { return *sets_[parity]; }
+    void bind_colliders(const Device& device, const Buffer& colliders);
+    void set_parameters(double step_length, std::uint32_t collider_count, bool colliders_rest);
+
+    /// The buffer behind a resource; for next_* that of the other parity.
+    const Buffer& buffer(Resource resource, std::uint32_t parity) const;
+    std::size_t entry_count(Resource resource) const;
+
+    /// Appends the copy of the root of the measures to where the host reads it.
+    void record_root_copy(const vk::raii::CommandBuffer& commands) const;
+    MeasureTotals totals() const;
+
+private:
+    Buffer filled(const Device& device, const void* data, std::size_t bytes, const char* name) const;
+
+    const ClothModel* model_;
+    MeasureTree tree_;
+    std::array<Buffer, 2> position_, velocity_;
+    Buffer parameters_, external_force_, spring_force_, normal_, strain_, measures_, root_;
+    Buffer springs_, spring_rest_class_, neighbour_start_, neighbours_;
+    Buffer triangles_, triangle_start_, node_triangles_;
+    vk::raii::DescriptorPool pool_{nullptr};
+    std::vector<vk::raii::DescriptorSet> sets_;
+};
+
+}  // namespace pliant::vulkan

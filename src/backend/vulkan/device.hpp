@@ -1,0 +1,109 @@
+// A Vulkan 1.2 device: chosen, opened, with buffers and one queue. Shared by the compute backend and the renderer.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <vulkan/vulkan_raii.hpp>
+
+namespace pliant::vulkan {
+
+struct DeviceOptions {
+    int index = -1;           ///< as listed by list_physical_devices(); -1 takes the best: discrete, integrated,
+                              ///< virtual, other, software
+    bool validation = false;  ///< with VK_LAYER_KHRONOS_validation, whose messages are counted and printed
+};
+
+/// What `pliant info` shows of a physical device.
+struct PhysicalDeviceInfo {
+    int index = 0;
+    std::string name;
+    std::string kind;  ///< "discrete GPU", "integrated GPU", "virtual GPU", "software", "other"
+    bool hardware = false;
+    std::uint32_t api_version = 0;
+    std::uint64_t memory = 0;             ///< bytes, the largest device-local heap
+    std::uint64_t max_buffer_range = 0;   ///< bytes of one storage buffer
+    std::uint32_t max_shared_memory = 0;  ///< bytes
+};
+
+/// Devices with Vulkan 1.2 and a compute queue; empty when there is no loader or no driver. Never throws.
+std::vector<PhysicalDeviceInfo> list_physical_devices() noexcept;
+
+/// Where a buffer lives.
+enum class Memory {
+    device,    ///< fast for shaders; fill it by Device::write
+    upload,    ///< host-visible and mapped, written by the host, read by shaders
+    readback,  ///< host-visible, mapped, preferably cached: the host reads it
+};
+
+/// A buffer with its own memory; `mapped` is null for Memory::device.
+struct Buffer {
+    vk::raii::Buffer handle{nullptr};
+    vk::raii::DeviceMemory memory{nullptr};
+    vk::DeviceSize size = 0;  ///< bytes
+    void* mapped = nullptr;
+
+    vk::Buffer operator*() const { return *handle; }
+    vk::DescriptorBufferInfo descriptor() const { return {*handle, 0, VK_WHOLE_SIZE}; }
+};
+
+class Device {
+public:
+    /// Throws Error(device_failure) when there is no such device, naming what to install or choose.
+    explicit Device(const DeviceOptions& options);
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+
+    const PhysicalDeviceInfo& info() const { return info_; }
+    const vk::raii::Device& handle() const { return device_; }
+    const vk::raii::PhysicalDevice& physical() const { return physical_; }
+    std::uint32_t queue_family() const { return queue_family_; }
+    bool can_draw() const { return can_draw_; }  ///< the queue does graphics too
+    double timestamp_period() const { return timestamp_period_; }  ///< ns per tick; 0 without timestamps
+
+    /// Throws Error(device_failure), naming the buffer, when the device cannot hold it.
+    Buffer make_buffer(vk::DeviceSize size, vk::BufferUsageFlags usage, Memory memory, const char* name) const;
+    std::uint32_t memory_type(std::uint32_t allowed_types, vk::MemoryPropertyFlags wanted,
+                              vk::MemoryPropertyFlags preferred = {}) const;
+    vk::raii::ShaderModule make_shader(std::span<const std::uint32_t> code) const;
+
+    /// A primary command buffer that can be submitted again and again.
+    vk::raii::CommandBuffer make_commands() const;
+    /// Submits and waits; throws vk::SystemError when the device is lost.
+    void run(const vk::raii::CommandBuffer& commands) const;
+
+    /// Copies through a staging buffer and waits. For set-up and read-back, not for the frame loop.
+    void write(const Buffer& target, const void* data, std::size_t bytes) const;
+    void read(const Buffer& source, void* data, std::size_t bytes) const;
+
+    /// Messages of the validation layer so far (warnings and errors).
+    std::uint64_t validation_messages() const { return validation_messages_; }
+
+private:
+    void open(const DeviceOptions& options);
+
+    mutable std::atomic<std::uint64_t> validation_messages_{0};
+    vk::raii::Context context_;
+    vk::raii::Instance instance_{nullptr};
+    vk::raii::DebugUtilsMessengerEXT messenger_{nullptr};
+    vk::raii::PhysicalDevice physical_{nullptr};
+    PhysicalDeviceInfo info_;
+    std::uint32_t queue_family_ = 0;
+    bool can_draw_ = false;
+    double timestamp_period_ = 0;
+    vk::raii::Device device_{nullptr};
+    vk::raii::Queue queue_{nullptr};
+    vk::raii::CommandPool pool_{nullptr};
+    vk::raii::Fence fence_{nullptr};
+    vk::PhysicalDeviceMemoryProperties memory_properties_;
+};
+
+/// Full barrier between everything before and everything after, for commands recorded by hand.
+void barrier(const vk::raii::CommandBuffer& commands, vk::PipelineStageFlags before, vk::AccessFlags written,
+             vk::PipelineStageFlags after, vk::AccessFlags read);
+
+}  // namespace pliant::vulkan

@@ -1,0 +1,29 @@
+// The device side of a running simulation, for whoever draws from its own buffers.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "backend/vulkan/device.hpp"
+
+namespace pliant {
+
+/// Buffers of one cloth, one entry per node.
+struct DeviceClothBuffers {
+    vk::Buffer position;  ///< vec4: xyz in m, w the inverse mass in 1/kg
+    vk::Buffer normal;    ///< vec4: xyz of unit length
+    vk::Buffer strain;    ///< float: the largest (l - l0) / l0 of the node's structural and shear springs
+    std::uint32_t node_count = 0;
+};
+
+class DeviceState {
+public:
+    virtual ~DeviceState() = default;
+    virtual const std::shared_ptr<vulkan::Device>& device() const = 0;
+    /// Brings normals and strains up to the current positions on the device, and names the buffers, which stay the
+    /// same buffers for the life of the simulation except `position`, which alternates between two.
+    virtual DeviceClothBuffers drawable(std::size_t cloth) = 0;
+};
+
+}  // namespace pliant

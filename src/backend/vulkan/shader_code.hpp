@@ -1,0 +1,23 @@
+// SPIR-V of the compute passes.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "solve/pass.hpp"
+
+namespace pliant::vulkan {
+
+std::span<const std::uint32_t> compute_shader(Pass pass);
+
+/// Execution modes for 32-bit floats that a device offers (float controls, core since SPIR-V 1.4).
+struct FloatControls {
+    bool flush_denormals = false;   ///< DenormFlushToZero: denormals are flushed on every machine
+    bool round_to_nearest = false;  ///< RoundingModeRTE: without it, Vulkan leaves the direction of rounding open
+};
+
+/// The same module with these modes.
+std::vector<std::uint32_t> with_float_controls(std::span<const std::uint32_t> code, FloatControls controls);
+
+}  // namespace pliant::vulkan

@@ -1,0 +1,39 @@
+// What every compute shader sees of a cloth. Bindings are those of cloth_buffers.hpp.
+#ifndef CLOTH_GLSL
+#define CLOTH_GLSL
+#extension GL_GOOGLE_include_directive : require
+#include "laws.glsl"
+
+const uint structural = 0u, shear = 1u, bend = 2u;
+
+layout(set = 0, binding = 0, std140) uniform Parameters
+{
+    uint rows, columns, node_count, spring_count;  // rows, columns: 0 on a mesh
+    uint collider_count, colliders_rest, has_air, padding;
+    vec4 gravity_dt;           // m/s2; w: s
+    vec4 gravity_direction;    // w: decay of velocity in a step
+    vec4 wind_density;         // m/s; w: kg/m3
+    vec4 drag_lift_thickness;  // w unused
+    vec4 stiffness;            // N/m by class
+    vec4 spring_damping;       // N s/m by class
+    vec4 rest_lengths;         // m: along a row, along a column, diagonal, two along a row
+    vec4 rest_lengths_more;    // m: two along a column
+} parameters;
+
+// The step of the frame, or the level of the tree, that a call is for; and for a level, where its values lie.
+layout(push_constant) uniform Push
+{
+    uint index, source_first, source_count, target_first;
+} push;
+
+layout(set = 0, binding = 1, std430) readonly buffer PositionIn { vec4 position_in[]; };  // w: inverse mass, 1/kg
+layout(set = 0, binding = 2, std430) readonly buffer VelocityIn { vec4 velocity_in[]; };  // w: mass, kg
+layout(set = 0, binding = 3, std430) writeonly buffer PositionOut { vec4 position_out[]; };
+layout(set = 0, binding = 4, std430) writeonly buffer VelocityOut { vec4 velocity_out[]; };
+
+vec3 position_of(uint node) { return position_in[node].xyz; }
+vec3 velocity_of(uint node) { return velocity_in[node].xyz; }
+
+float rest_length_of(uint k) { return k < 4u ? parameters.rest_lengths[k] : parameters.rest_lengths_more[k - 4u]; }
+float component(vec4 a, uint k) { return a[k]; }
+#endif

@@ -1,0 +1,23 @@
+#version 460
+// Measures of nodes, each with its springs to nodes of higher index, merged per block of 256.
+#extension GL_GOOGLE_include_directive : require
+#include "list.glsl"
+#include "measure_node.glsl"
+
+layout(local_size_x = 256) in;
+
+void main()
+{
+    uint node = gl_GlobalInvocationID.x;
+    Measure m = measure_of_nothing();
+    if (node < parameters.node_count) {
+        for (uint e = neighbour_start[node]; e < neighbour_start[node + 1u]; ++e) {
+            uint other = neighbours[e].x, spring = neighbours[e].y, k = spring_class_of(spring);
+            if (other < node) continue;
+            m = measure_spring(m, position_of(node), position_of(other), spring_rest_of(spring),
+                               component(parameters.stiffness, k), k != bend);
+        }
+        m = with_node(m, node);
+    }
+    merge_block(m, gl_WorkGroupID.x);
+}

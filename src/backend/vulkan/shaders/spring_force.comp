@@ -1,0 +1,17 @@
+#version 460
+// Edge-centric: the force of each spring on its first node, once.
+#extension GL_GOOGLE_include_directive : require
+#include "list.glsl"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 14, std430) writeonly buffer SpringForce { vec4 spring_forces[]; };
+
+void main()
+{
+    uint s = gl_GlobalInvocationID.x;
+    if (s >= parameters.spring_count) return;
+    uint i = springs[s].x, j = springs[s].y, k = spring_class_of(s);
+    precise vec3 force = spring_force(position_of(i), position_of(j), velocity_of(i), velocity_of(j), spring_rest_of(s),
+                                      component(parameters.stiffness, k), component(parameters.spring_damping, k));
+    spring_forces[s] = vec4(force, 0.0f);
+}

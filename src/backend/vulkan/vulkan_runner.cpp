@@ -1,0 +1,333 @@
+#include "backend/vulkan/vulkan_runner.hpp"
+
+#include <cstring>
+#include <map>
+#include <set>
+
+#include "backend/vulkan/cloth_buffers.hpp"
+#include "backend/vulkan/shader_code.hpp"
+#include "solve/mass_spring.hpp"
+
+namespace pliant {
+namespace {
+
+using namespace vulkan;
+
+struct Float4 {
+    float x = 0, y = 0, z = 0, w = 0;
+};
+
+/// As collider_at() of shaders/colliders.glsl.
+using ColliderRow = std::array<Float4, 8>;
+
+ColliderRow pack_collider(const PlacedCollider& placed)
+{
+    const auto c = make_collider<float>(placed);
+    const auto row = [](Vector3<float> a, float w = 0) { return Float4{a.x, a.y, a.z, w}; };
+    return {row(c.centre, static_cast<float>(c.kind)),
+            row(c.axis_x, c.radius),
+            row(c.axis_y, c.friction),
+            row(c.axis_z, static_cast<float>(c.response)),
+            row(c.half_size),
+            row(c.velocity),
+            row(c.spin),
+            {}};
+}
+
+struct Push {
+    std::uint32_t index = 0, source_first = 0, source_count = 0, target_first = 0;
+};
+
+/// A program as commands, with two timestamps around each stretch of calls of one pass.
+struct Recording {
+    struct Stretch {
+        Pass pass;
+        std::uint64_t calls = 0;
+    };
+    vk::raii::CommandBuffer commands{nullptr};
+    vk::raii::QueryPool queries{nullptr};
+    std::vector<Stretch> stretches;
+};
+
+/// Puts barriers where the table of passes asks for them: before a call that touches what an earlier one wrote, or
+/// writes what an earlier one read.
+class BarrierPlan {
+public:
+    bool needed_before(const Call& call)
+    {
+        const PassDescription& pass = description_of(call.pass);
+        std::set<Key> reads, writes;
+        for (const Resource r : pass.reads) reads.insert(key(call, r));
+        for (const Resource r : pass.writes) writes.insert(key(call, r));
+        bool hazard = false;
+        for (const Key& k : reads) hazard |= written_.count(k) > 0;
+        for (const Key& k : writes) hazard |= written_.count(k) > 0 || read_.count(k) > 0;
+        if (hazard) {
+            written_.clear();
+            read_.clear();
+        }
+        read_.merge(reads);
+        written_.merge(writes);
+        return hazard;
+    }
+
+private:
+    using Key = std::pair<std::uint32_t, std::uint32_t>;  // cloth, physical buffer
+    static Key key(const Call& call, Resource resource)
+    {
+        // The two copies of the state by their place, not by their role.
+        constexpr std::uint32_t copies = 100;
+        switch (resource) {
+            case Resource::position: return {call.cloth, copies + call.parity};
+            case Resource::next_position: return {call.cloth, copies + 1 - call.parity};
+            case Resource::velocity: return {call.cloth, copies + 2 + call.parity};
+            case Resource::next_velocity: return {call.cloth, copies + 3 - call.parity};
+            default: return {call.cloth, static_cast<std::uint32_t>(resource)};
+        }
+    }
+    std::set<Key> written_, read_;
+};
+
+class Runner final : public VulkanRunner {
+public:
+    Runner(std::span<const ClothModel> models, const SimulationOptions& options)
+        : device_(std::make_shared<Device>(DeviceOptions{options.device, options.validation})),
+          layout_(make_cloth_layout(*device_))
+    {
+        const vk::PushConstantRange push(vk::ShaderStageFlagBits::eCompute, 0, sizeof(Push));
+        const vk::DescriptorSetLayout layout = *layout_;
+        pipeline_layout_ = {device_->handle(), vk::PipelineLayoutCreateInfo({}, layout, push)};
+        make_pipelines();
+        cloths_.reserve(models.size());
+        for (const ClothModel& model : models) cloths_.emplace_back(*device_, model, layout_);
+        check_sizes(models);
+        reserve_colliders(1);
+    }
+
+    void run(const Program& program, const FrameInput& input) override
+    {
+        reserve_colliders(input.colliders.size());
+        for (std::size_t k = 0; k < input.colliders.size(); ++k) {
+            const ColliderRow row = pack_collider(input.colliders[k]);
+            std::memcpy(static_cast<ColliderRow*>(colliders_.mapped) + k, &row, sizeof row);
+        }
+        for (ClothBuffers& cloth : cloths_)
+            cloth.set_parameters(input.step_length, input.collider_count, input.colliders_rest);
+        replay(program);
+        parity_ = program.parity_after;
+    }
+
+    void read(std::uint32_t cloth, Resource resource, std::uint32_t parity, std::vector<float>& values) override
+    {
+        const ClothBuffers& buffers = cloths_[cloth];
+        const std::size_t count = buffers.entry_count(resource);
+        if (resource == Resource::strain || resource == Resource::measures) {
+            values.resize(count * (resource == Resource::strain ? 1 : 8));
+            device_->read(buffers.buffer(resource, parity), values.data(), values.size() * sizeof(float));
+            return;
+        }
+        std::vector<Float4> padded(count);
+        device_->read(buffers.buffer(resource, parity), padded.data(), count * sizeof(Float4));
+        values.resize(3 * count);
+        for (std::size_t i = 0; i < count; ++i) std::memcpy(&values[3 * i], &padded[i], 3 * sizeof(float));
+    }
+
+    MeasureTotals measures(std::uint32_t cloth) override { return cloths_[cloth].totals(); }
+    std::vector<PassTime> pass_times() const override { return clock_.times(); }
+    std::string device_name() const override { return device_->info().name; }
+    unsigned thread_count() const override { return 0; }
+    std::uint64_t validation_messages() const override { return device_->validation_messages(); }
+
+    const std::shared_ptr<Device>& device() const override { return device_; }
+
+    DeviceClothBuffers drawable(std::size_t cloth) override
+    {
+        // Identities of drawing programs lie above those of any frame.
+        const auto index = static_cast<std::uint32_t>(cloth);
+        Program program{~0ull - (2ull * index + parity_), {}, parity_};
+        if (recordings_.count(program.id) == 0)
+            append_drawing(cloths_[cloth].model(), index, parity_, program.calls);
+        replay(program);
+        const ClothBuffers& buffers = cloths_[cloth];
+        return {*buffers.buffer(Resource::position, parity_), *buffers.buffer(Resource::normal, parity_),
+                *buffers.buffer(Resource::strain, parity_), buffers.model().node_count()};
+    }
+
+private:
+    static constexpr std::size_t most_recordings = 64;  ///< a host that varies its frames does not fill the memory
+    static constexpr std::uint32_t linear_group = 64;
+    static constexpr std::uint32_t sheet_group_x = 32, sheet_group_y = 4;
+
+    void make_pipelines()
+    {
+        const auto properties =
+            device_->physical().getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceFloatControlsProperties>();
+        const auto& controls = properties.get<vk::PhysicalDeviceFloatControlsProperties>();
+        const FloatControls modes{controls.shaderDenormFlushToZeroFloat32 == VK_TRUE,
+                                  controls.shaderRoundingModeRTEFloat32 == VK_TRUE};
+        for (std::uint32_t p = 0; p < all_passes().size(); ++p) {
+            const auto module = device_->make_shader(with_float_controls(compute_shader(static_cast<Pass>(p)), modes));
+            const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main");
+            pipelines_.emplace_back(device_->handle(), nullptr, vk::ComputePipelineCreateInfo({}, stage, *pipeline_layout_));
+        }
+    }
+
+    /// Groups of a call in x and y.
+    struct Groups {
+        std::uint64_t x = 0, y = 1;
+    };
+    Groups groups_of(const Call& call) const
+    {
+        const ClothBuffers& cloth = cloths_[call.cloth];
+        const ClothModel& model = cloth.model();
+        const auto groups = [](std::uint64_t n, std::uint64_t size) { return (n + size - 1) / size; };
+        switch (call.pass) {
+            case Pass::sheet_wind:
+            case Pass::sheet_step:
+            case Pass::sheet_normal:
+            case Pass::sheet_strain:
+                return {groups(model.sheet->columns, sheet_group_x), groups(model.sheet->rows, sheet_group_y)};
+            case Pass::sheet_measure:
+            case Pass::list_measure: return {cloth.tree().levels.front().count};
+            case Pass::measure_merge: return {cloth.tree().levels[call.index].count};
+            case Pass::spring_force: return {groups(model.springs.size(), linear_group)};
+            default: return {groups(model.node_count(), linear_group)};
+        }
+    }
+
+    /// Every call of a frame must be one dispatch that the device can do.
+    void check_sizes(std::span<const ClothModel> models) const
+    {
+        const auto most = device_->physical().getProperties().limits.maxComputeWorkGroupCount;
+        std::vector<Call> calls;
+        append_mass_spring_frame(models, 1, 0, calls);
+        for (std::uint32_t c = 0; c < models.size(); ++c) append_drawing(models[c], c, 0, calls);
+        for (const Call& call : calls) {
+            const Groups groups = groups_of(call);
+            if (groups.x > most[0] || groups.y > most[1])
+                throw Error(ErrorKind::device_failure,
+                            "a cloth of " + std::to_string(models[call.cloth].node_count()) +
+                                " nodes is too large for " + device_->info().name + ", which runs " +
+                                std::to_string(most[0]) + " x " + std::to_string(most[1]) +
+                                " work groups at most; use fewer nodes or another backend");
+        }
+    }
+
+    void reserve_colliders(std::size_t count)
+    {
+        const std::size_t bytes = count * sizeof(ColliderRow);
+        if (colliders_.size >= bytes && colliders_.size > 0) return;
+        recordings_.clear();  // they hold the sets that change now
+        colliders_ = device_->make_buffer(bytes, vk::BufferUsageFlagBits::eStorageBuffer, Memory::upload, "colliders");
+        for (ClothBuffers& cloth : cloths_) cloth.bind_colliders(*device_, colliders_);
+    }
+
+    void replay(const Program& program)
+    {
+        auto found = recordings_.find(program.id);
+        if (found == recordings_.end() && recordings_.size() >= most_recordings) recordings_.clear();
+        if (found == recordings_.end()) found = recordings_.emplace(program.id, record(program)).first;
+        const Recording& recording = found->second;
+        device_->run(recording.commands);
+        if (*recording.queries) take_times(recording);
+    }
+
+    Recording record(const Program& program) const
+    {
+        Recording recording;
+        for (const Call& call : program.calls) {
+            if (recording.stretches.empty() || recording.stretches.back().pass != call.pass)
+                recording.stretches.push_back({call.pass, 0});
+            ++recording.stretches.back().calls;
+        }
+        const auto query_count = static_cast<std::uint32_t>(2 * recording.stretches.size());
+        if (device_->timestamp_period() > 0 && query_count > 0)
+            recording.queries = {device_->handle(),
+                                 vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, query_count)};
+        const bool timed = static_cast<bool>(*recording.queries);
+
+        recording.commands = device_->make_commands();
+        const vk::raii::CommandBuffer& commands = recording.commands;
+        commands.begin({});
+        if (timed) commands.resetQueryPool(*recording.queries, 0, query_count);
+        // What the host or an earlier submission wrote.
+        barrier(commands, vk::PipelineStageFlagBits::eAllCommands, vk::AccessFlagBits::eMemoryWrite,
+                vk::PipelineStageFlagBits::eComputeShader,
+                vk::AccessFlagBits::eShaderRead | vk::AccessFlagBits::eShaderWrite | vk::AccessFlagBits::eUniformRead);
+        BarrierPlan plan;
+        std::set<std::uint32_t> measured;
+        std::uint32_t query = 0;
+        for (std::size_t c = 0; c < program.calls.size(); ++c) {
+            const Call& call = program.calls[c];
+            const bool first = c == 0 || program.calls[c - 1].pass != call.pass;
+            const bool last = c + 1 == program.calls.size() || program.calls[c + 1].pass != call.pass;
+            if (timed && first)
+                commands.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *recording.queries, query++);
+            if (plan.needed_before(call))
+                barrier(commands, vk::PipelineStageFlagBits::eComputeShader, vk::AccessFlagBits::eShaderWrite,
+                        vk::PipelineStageFlagBits::eComputeShader,
+                        vk::AccessFlagBits::eShaderRead | vk::AccessFlagBits::eShaderWrite);
+            dispatch(commands, call);
+            if (timed && last)
+                commands.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *recording.queries, query++);
+            if (call.pass == Pass::sheet_measure || call.pass == Pass::list_measure) measured.insert(call.cloth);
+        }
+        if (!measured.empty()) {
+            barrier(commands, vk::PipelineStageFlagBits::eComputeShader, vk::AccessFlagBits::eShaderWrite,
+                    vk::PipelineStageFlagBits::eTransfer, vk::AccessFlagBits::eTransferRead);
+            for (const std::uint32_t cloth : measured) cloths_[cloth].record_root_copy(commands);
+            barrier(commands, vk::PipelineStageFlagBits::eTransfer, vk::AccessFlagBits::eTransferWrite,
+                    vk::PipelineStageFlagBits::eHost, vk::AccessFlagBits::eHostRead);
+        }
+        commands.end();
+        return recording;
+    }
+
+    void dispatch(const vk::raii::CommandBuffer& commands, const Call& call) const
+    {
+        const ClothBuffers& cloth = cloths_[call.cloth];
+        Push push{call.index};
+        if (call.pass == Pass::measure_merge) {
+            const auto from = cloth.tree().levels[call.index - 1];
+            push = {call.index, from.first, from.count, cloth.tree().levels[call.index].first};
+        }
+        const Groups groups = groups_of(call);
+        if (groups.x == 0) return;  // a mesh without springs
+        commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipelines_[static_cast<std::size_t>(call.pass)]);
+        commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *pipeline_layout_, 0, cloth.set(call.parity), {});
+        commands.pushConstants<Push>(*pipeline_layout_, vk::ShaderStageFlagBits::eCompute, 0, push);
+        commands.dispatch(static_cast<std::uint32_t>(groups.x), static_cast<std::uint32_t>(groups.y), 1);
+    }
+
+    void take_times(const Recording& recording)
+    {
+        const auto count = static_cast<std::uint32_t>(2 * recording.stretches.size());
+        const auto [result, ticks] = recording.queries.getResults<std::uint64_t>(
+            0, count, count * sizeof(std::uint64_t), sizeof(std::uint64_t),
+            vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
+        if (result != vk::Result::eSuccess) return;
+        for (std::size_t s = 0; s < recording.stretches.size(); ++s) {
+            const double nanoseconds = static_cast<double>(ticks[2 * s + 1] - ticks[2 * s]) * device_->timestamp_period();
+            clock_.add(recording.stretches[s].pass, nanoseconds * 1e-6, recording.stretches[s].calls);
+        }
+    }
+
+    std::shared_ptr<Device> device_;
+    vk::raii::DescriptorSetLayout layout_;
+    vk::raii::PipelineLayout pipeline_layout_{nullptr};
+    std::vector<vk::raii::Pipeline> pipelines_;  // by Pass
+    std::vector<ClothBuffers> cloths_;
+    Buffer colliders_;
+    std::map<std::uint64_t, Recording> recordings_;
+    PassClock clock_;
+    std::uint32_t parity_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<VulkanRunner> make_vulkan_runner(std::span<const ClothModel> cloths, const SimulationOptions& options)
+{
+    return std::make_unique<Runner>(cloths, options);
+}
+
+}  // namespace pliant

@@ -1,0 +1,303 @@
+#include "body/cloth_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "body/collider_motion.hpp"
+
+namespace pliant {
+namespace {
+
+std::uint64_t sheet_measured_spring_count(std::uint64_t rows, std::uint64_t columns)
+{
+    const std::uint64_t structural = rows * (columns - 1) + (rows - 1) * columns;
+    const std::uint64_t shear = 2 * (rows - 1) * (columns - 1);
+    return structural + shear;
+}
+
+std::uint64_t sheet_spring_count(std::uint64_t rows, std::uint64_t columns)
+{
+    const std::uint64_t bend = rows * (columns - 2) + (rows - 2) * columns;
+    return sheet_measured_spring_count(rows, columns) + bend;
+}
+
+Vec3d at(const std::vector<Vec3>& positions, std::uint32_t node) { return to_double(positions[node]); }
+
+double distance(Vec3d a, Vec3d b) { return std::sqrt(dot(b - a, b - a)); }
+
+double area(const std::vector<Vec3>& positions, const Triangle& t)
+{
+    const Vec3d n = cross(at(positions, t[1]) - at(positions, t[0]), at(positions, t[2]) - at(positions, t[0]));
+    return 0.5 * std::sqrt(dot(n, n));
+}
+
+/// Nodes that a pin names.
+class PinnedNodes {
+public:
+    PinnedNodes(const ClothModel& model) : model_(model) {}
+
+    std::vector<std::uint32_t> operator()(std::uint32_t index) const { return {index}; }
+    std::vector<std::uint32_t> operator()(Corner corner) const
+    {
+        const std::uint32_t last_row = model_.sheet->rows - 1, last_column = model_.sheet->columns - 1;
+        switch (corner) {
+            case Corner::top_left: return {node(0, 0)};
+            case Corner::top_right: return {node(0, last_column)};
+            case Corner::bottom_left: return {node(last_row, 0)};
+            case Corner::bottom_right: return {node(last_row, last_column)};
+        }
+        return {};
+    }
+    std::vector<std::uint32_t> operator()(Edge edge) const
+    {
+        const std::uint32_t rows = model_.sheet->rows, columns = model_.sheet->columns;
+        const bool along_row = edge == Edge::top || edge == Edge::bottom;
+        std::vector<std::uint32_t> nodes;
+        for (std::uint32_t k = 0; k < (along_row ? columns : rows); ++k)
+            nodes.push_back(edge == Edge::top      ? node(0, k)
+                            : edge == Edge::bottom ? node(rows - 1, k)
+                            : edge == Edge::left   ? node(k, 0)
+                                                   : node(k, columns - 1));
+        return nodes;
+    }
+    std::vector<std::uint32_t> operator()(const Region& region) const
+    {
+        std::vector<std::uint32_t> nodes;
+        for (std::uint32_t i = 0; i < model_.node_count(); ++i) {
+            const Vec3d p = at(model_.positions, i);
+            if (p.x >= region.min.x && p.x <= region.max.x && p.y >= region.min.y && p.y <= region.max.y &&
+                p.z >= region.min.z && p.z <= region.max.z)
+                nodes.push_back(i);
+        }
+        return nodes;
+    }
+
+private:
+    std::uint32_t node(std::uint32_t row, std::uint32_t column) const { return row * model_.sheet->columns + column; }
+    const ClothModel& model_;
+};
+
+}  // namespace
+
+ClothModel::ClothModel(const Cloth& cloth, const Scene& scene)
+{
+    if (const auto* options = std::get_if<SheetOptions>(&cloth.shape))
+        build_sheet(cloth, *options);
+    else
+        build_mesh(cloth, std::get<SurfaceMesh>(cloth.shape));
+    velocities.assign(positions.size(), to_float(cloth.velocity));
+    set_masses(cloth);
+    set_pins(cloth);
+
+    const SpringParameters classes[] = {cloth.springs.structural, cloth.springs.shear, cloth.springs.bend};
+    for (std::size_t k = 0; k < spring_class_count; ++k) {
+        parameters.stiffness[k] = classes[k].stiffness;
+        parameters.spring_damping[k] = classes[k].damping;
+    }
+    parameters.gravity = scene.gravity;
+    parameters.wind = scene.air.velocity;
+    parameters.air_density = scene.air.density;
+    parameters.drag = scene.air.drag;
+    parameters.lift = scene.air.lift;
+    parameters.damping = cloth.damping;
+    parameters.thickness = cloth.thickness;
+
+    node_centric_ = is_sheet() && cloth.formulation != Formulation::spring_list;
+    if (is_sheet() && !node_centric_) list_sheet_springs();
+    if (!is_sheet()) list_mesh_springs();
+    if (!node_centric_) list_neighbours();
+    if (is_sheet()) {
+        spring_count_ = sheet_spring_count(sheet->rows, sheet->columns);
+        measured_spring_count_ = sheet_measured_spring_count(sheet->rows, sheet->columns);
+    } else {
+        spring_count_ = springs.size();
+        measured_spring_count_ = static_cast<std::uint64_t>(std::count_if(
+            springs.begin(), springs.end(), [](const Spring& spring) { return spring.spring_class != SpringClass::bend; }));
+    }
+}
+
+void ClothModel::build_sheet(const Cloth& cloth, const SheetOptions& options)
+{
+    const double dx = options.width / (options.columns - 1), dz = options.height / (options.rows - 1);
+    sheet = SheetShape{options.rows, options.columns, {dx, dz, std::sqrt(dx * dx + dz * dz), 2 * dx, 2 * dz}};
+    const Rotation rotation = rotation_from_degrees(cloth.rotation);
+    positions.reserve(std::size_t{options.rows} * options.columns);
+    for (std::uint32_t row = 0; row < options.rows; ++row)
+        for (std::uint32_t column = 0; column < options.columns; ++column) {
+            const Vec3d flat = {column * dx - 0.5 * options.width, 0, row * dz - 0.5 * options.height};
+            positions.push_back(to_float(cloth.position + rotate(rotation, flat)));
+        }
+}
+
+void ClothModel::build_mesh(const Cloth& cloth, const SurfaceMesh& mesh)
+{
+    const Rotation rotation = rotation_from_degrees(cloth.rotation);
+    positions.reserve(mesh.vertices.size());
+    for (const Vec3& vertex : mesh.vertices)
+        positions.push_back(to_float(cloth.position + rotate(rotation, to_double(vertex) * cloth.scale)));
+    triangles_ = mesh.triangles;
+
+    node_triangles.start.assign(positions.size() + 1, 0);
+    for (const Triangle& t : triangles_)
+        for (const std::uint32_t node : t) ++node_triangles.start[node + 1];
+    for (std::size_t i = 0; i < positions.size(); ++i) node_triangles.start[i + 1] += node_triangles.start[i];
+    node_triangles.entries.resize(triangles_.size() * 3);
+    std::vector<std::uint32_t> next(node_triangles.start.begin(), node_triangles.start.end() - 1);
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t)
+        for (const std::uint32_t node : triangles_[t]) node_triangles.entries[next[node]++] = t;
+}
+
+void ClothModel::set_masses(const Cloth& cloth)
+{
+    constexpr double default_density = 0.3;  // kg/m2, a heavy cotton
+    const std::size_t count = positions.size();
+    std::vector<double> mass(count, 0.0);
+    if (cloth.node_mass) {
+        mass.assign(count, *cloth.node_mass);
+    } else if (is_sheet()) {
+        const auto& options = std::get<SheetOptions>(cloth.shape);
+        const double total = cloth.density.value_or(default_density) * options.width * options.height;
+        mass.assign(count, total / static_cast<double>(count));
+    } else {
+        for (const Triangle& t : triangles_)
+            for (const std::uint32_t node : t)
+                mass[node] += cloth.density.value_or(default_density) * area(positions, t) / 3;
+        for (std::size_t i = 0; i < count; ++i)
+            if (!(mass[i] > 0))
+                throw Error(ErrorKind::bad_input,
+                            "the mesh of cloth '" + cloth.name + "': vertex " + std::to_string(i) +
+                                " belongs to no triangle with an area, so that its mass would be 0; remove it from the "
+                                "mesh, or give node_mass instead of density");
+    }
+    masses.assign(mass.begin(), mass.end());
+    inverse_masses.resize(count);
+    std::transform(mass.begin(), mass.end(), inverse_masses.begin(), [](double m) { return 1 / m; });
+}
+
+void ClothModel::set_pins(const Cloth& cloth)
+{
+    const PinnedNodes nodes_of(*this);
+    for (std::size_t p = 0; p < cloth.pins.size(); ++p) {
+        const std::vector<std::uint32_t> nodes = std::visit(nodes_of, cloth.pins[p]);
+        if (nodes.empty())
+            throw Error(ErrorKind::bad_input, "cloth '" + cloth.name + "': pins[" + std::to_string(p) +
+                                                  "] is a box that contains no node of the cloth; move or enlarge it");
+        for (const std::uint32_t node : nodes) {
+            inverse_masses[node] = 0;
+            velocities[node] = {};
+        }
+    }
+}
+
+void ClothModel::list_sheet_springs()
+{
+    // Forward neighbours come in ascending order at any number of columns, so the list is sorted by (i, j).
+    springs.reserve(sheet_spring_count(sheet->rows, sheet->columns));
+    for_each_sheet_spring(*sheet, [&](std::uint32_t i, std::uint32_t j, const SheetNeighbour& n) {
+        springs.push_back({i, j, n.spring_class, sheet->rest_lengths[static_cast<std::size_t>(n.rest)]});
+    });
+}
+
+void ClothModel::list_mesh_springs()
+{
+    using Pair = std::pair<std::uint32_t, std::uint32_t>;
+    const auto ordered = [](std::uint32_t a, std::uint32_t b) { return a < b ? Pair{a, b} : Pair{b, a}; };
+
+    // Edges with the vertices opposite to them; sorted, so that everything follows in a fixed order.
+    std::vector<std::pair<Pair, std::uint32_t>> sides;
+    sides.reserve(triangles_.size() * 3);
+    for (const Triangle& t : triangles_)
+        for (std::size_t k = 0; k < 3; ++k)
+            if (t[k] != t[(k + 1) % 3]) sides.push_back({ordered(t[k], t[(k + 1) % 3]), t[(k + 2) % 3]});
+    std::sort(sides.begin(), sides.end());
+
+    std::vector<Pair> edges, bends;
+    for (std::size_t s = 0; s < sides.size(); ++s) {
+        if (s == 0 || sides[s].first != sides[s - 1].first)
+            edges.push_back(sides[s].first);
+        else if (sides[s].second != sides[s - 1].second)
+            bends.push_back(ordered(sides[s].second, sides[s - 1].second));
+    }
+    std::sort(bends.begin(), bends.end());
+    bends.erase(std::unique(bends.begin(), bends.end()), bends.end());
+
+    const auto add = [&](Pair pair, SpringClass spring_class) {
+        const double length = distance(at(positions, pair.first), at(positions, pair.second));
+        if (length > 0) springs.push_back({pair.first, pair.second, spring_class, length});
+    };
+    for (const Pair& pair : edges) add(pair, SpringClass::structural);
+    for (const Pair& pair : bends)
+        if (!std::binary_search(edges.begin(), edges.end(), pair)) add(pair, SpringClass::bend);
+    std::sort(springs.begin(), springs.end(),
+              [](const Spring& a, const Spring& b) { return a.i != b.i ? a.i < b.i : a.j < b.j; });
+}
+
+void ClothModel::list_neighbours()
+{
+    neighbours.start.assign(positions.size() + 1, 0);
+    for (const Spring& spring : springs) {
+        ++neighbours.start[spring.i + 1];
+        ++neighbours.start[spring.j + 1];
+    }
+    for (std::size_t i = 0; i < positions.size(); ++i) neighbours.start[i + 1] += neighbours.start[i];
+    neighbours.entries.resize(springs.size() * 2);
+    std::vector<std::uint32_t> next(neighbours.start.begin(), neighbours.start.end() - 1);
+    for (std::uint32_t s = 0; s < springs.size(); ++s) {
+        neighbours.entries[next[springs[s].i]++] = {springs[s].j, s};
+        neighbours.entries[next[springs[s].j]++] = {springs[s].i, s};
+    }
+    for (std::size_t i = 0; i < positions.size(); ++i)
+        std::sort(neighbours.entries.begin() + neighbours.start[i], neighbours.entries.begin() + neighbours.start[i + 1],
+                  [](const Neighbour& a, const Neighbour& b) { return a.node < b.node; });
+}
+
+std::uint64_t ClothModel::triangle_count() const
+{
+    return is_sheet() ? 2ull * (sheet->rows - 1) * (sheet->columns - 1) : triangles_.size();
+}
+
+std::span<const Triangle> ClothModel::triangles() const
+{
+    if (is_sheet() && triangles_.empty()) {
+        triangles_.reserve(triangle_count());
+        for (std::uint32_t row = 0; row + 1 < sheet->rows; ++row)
+            for (std::uint32_t column = 0; column + 1 < sheet->columns; ++column) {
+                const std::uint32_t a = row * sheet->columns + column, b = a + 1;
+                const std::uint32_t c = a + sheet->columns, d = c + 1;
+                triangles_.push_back({a, c, b});
+                triangles_.push_back({b, c, d});
+            }
+    }
+    return triangles_;
+}
+
+double ClothModel::stable_step() const
+{
+    // Rows of M^-1 K and M^-1 C in 3 x 3 blocks have sums of norms of at most 2 sum k / m and 2 sum c / m.
+    std::vector<double> stiffness(positions.size(), 0.0), damping(positions.size(), 0.0);
+    const auto add = [&](std::uint32_t i, std::uint32_t j, SpringClass spring_class) {
+        const auto k = static_cast<std::size_t>(spring_class);
+        for (const std::uint32_t node : {i, j}) {
+            stiffness[node] += parameters.stiffness[k];
+            damping[node] += parameters.spring_damping[k];
+        }
+    };
+    if (is_sheet())
+        for_each_sheet_spring(*sheet, [&](std::uint32_t i, std::uint32_t j, const SheetNeighbour& n) {
+            add(i, j, n.spring_class);
+        });
+    else
+        for (const Spring& spring : springs) add(spring.i, spring.j, spring.spring_class);
+
+    double omega2 = 0, gamma = parameters.damping;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        omega2 = std::max(omega2, 2 * stiffness[i] * inverse_masses[i]);
+        gamma = std::max(gamma, parameters.damping + 2 * damping[i] * inverse_masses[i]);
+    }
+    // Symplectic Euler on x'' = -gamma x' - omega2 x is stable while 4 - 2 gamma dt - omega2 dt^2 > 0.
+    if (omega2 > 0) return (std::sqrt(gamma * gamma + 4 * omega2) - gamma) / omega2;
+    return gamma > 0 ? 2 / gamma : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace pliant

@@ -1,0 +1,142 @@
+// A cloth made ready for stepping: nodes, springs, triangles and what a node needs to find them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "pliant/scene.hpp"
+
+namespace pliant {
+
+enum class SpringClass : std::uint32_t { structural = 0, shear = 1, bend = 2 };
+constexpr std::size_t spring_class_count = 3;
+
+/// A spring between nodes i < j.
+struct Spring {
+    std::uint32_t i = 0, j = 0;
+    SpringClass spring_class = SpringClass::structural;
+    double rest_length = 0;  ///< m
+};
+
+/// The other end of a spring, seen from a node.
+struct Neighbour {
+    std::uint32_t node = 0;
+    std::uint32_t spring = 0;  ///< index into ClothModel::springs; the sign of its force follows from node order
+};
+
+/// Rows of different length in one array: row i is entries[start[i]] ... entries[start[i + 1] - 1].
+template <class Entry>
+struct Ragged {
+    std::vector<std::uint32_t> start;
+    std::vector<Entry> entries;
+    std::span<const Entry> row(std::size_t i) const
+    {
+        return {entries.data() + start[i], entries.data() + start[i + 1]};
+    }
+};
+
+/// One of the up to 12 springs of a sheet's node.
+struct SheetNeighbour {
+    int row_offset = 0, column_offset = 0;
+    SpringClass spring_class = SpringClass::structural;
+    int rest = 0;  ///< index into SheetShape::rest_lengths
+};
+
+/// The canonical order in which every backend adds a node's springs: by the neighbour's index, that is backward
+/// neighbours (the first six) in row order, then forward ones.
+inline constexpr SheetNeighbour sheet_neighbours[12] = {
+    {-2, 0, SpringClass::bend, 4},
+    {-1, -1, SpringClass::shear, 2},
+    {-1, 0, SpringClass::structural, 1},
+    {-1, 1, SpringClass::shear, 2},
+    {0, -2, SpringClass::bend, 3},
+    {0, -1, SpringClass::structural, 0},
+    {0, 1, SpringClass::structural, 0},
+    {0, 2, SpringClass::bend, 3},
+    {1, -1, SpringClass::shear, 2},
+    {1, 0, SpringClass::structural, 1},
+    {1, 1, SpringClass::shear, 2},
+    {2, 0, SpringClass::bend, 4},
+};
+
+struct SheetShape {
+    std::uint32_t rows = 0, columns = 0;
+    /// m: along a row, along a column, diagonal, two along a row, two along a column
+    std::array<double, 5> rest_lengths{};
+};
+
+/// Constant over a run, but for what Simulation changes per frame (the length of a step).
+struct ClothParameters {
+    std::array<double, spring_class_count> stiffness{};       ///< N/m
+    std::array<double, spring_class_count> spring_damping{};  ///< N s/m
+    Vec3d gravity;                                            ///< m/s2
+    Vec3d wind;                                               ///< m/s
+    double air_density = 0;                                   ///< kg/m3
+    double drag = 0, lift = 0;
+    double damping = 0;    ///< 1/s
+    double thickness = 0;  ///< m
+};
+
+class ClothModel {
+public:
+    ClothModel(const Cloth& cloth, const Scene& scene);
+
+    std::uint32_t node_count() const { return static_cast<std::uint32_t>(positions.size()); }
+    std::uint64_t spring_count() const { return spring_count_; }
+    /// Structural and shear springs: those whose stretch is measured.
+    std::uint64_t measured_spring_count() const { return measured_spring_count_; }
+    std::uint64_t triangle_count() const;
+    bool is_sheet() const { return sheet.has_value(); }
+    bool node_centric() const { return node_centric_; }
+    bool feels_air() const { return parameters.air_density > 0; }
+
+    /// Triangles; those of a sheet are made when first asked for.
+    std::span<const Triangle> triangles() const;
+
+    /// Largest safe step in s from Gershgorin's theorem: see docs/physics.md, "Stability".
+    double stable_step() const;
+
+    std::vector<Vec3> positions;         ///< m, at the start
+    std::vector<Vec3> velocities;        ///< m/s, at the start
+    std::vector<float> masses;           ///< kg
+    std::vector<double> inverse_masses;  ///< 1/kg; 0 for a pinned node
+    std::optional<SheetShape> sheet;
+    ClothParameters parameters;
+    // Only when not node-centric:
+    std::vector<Spring> springs;   ///< sorted by (i, j)
+    Ragged<Neighbour> neighbours;  ///< per node, sorted by the other node
+    // Only for a mesh:
+    Ragged<std::uint32_t> node_triangles;  ///< per node the triangles around it, ascending
+
+private:
+    void build_sheet(const Cloth& cloth, const SheetOptions& options);
+    void build_mesh(const Cloth& cloth, const SurfaceMesh& mesh);
+    void set_masses(const Cloth& cloth);
+    void set_pins(const Cloth& cloth);
+    void list_sheet_springs();
+    void list_mesh_springs();
+    void list_neighbours();
+
+    bool node_centric_ = false;
+    std::uint64_t spring_count_ = 0, measured_spring_count_ = 0;
+    mutable std::vector<Triangle> triangles_;
+};
+
+/// Visits the springs of a sheet in the order of (i, j): f(i, j, const SheetNeighbour&).
+template <class Function>
+void for_each_sheet_spring(const SheetShape& sheet, Function&& f)
+{
+    for (std::uint32_t row = 0; row < sheet.rows; ++row)
+        for (std::uint32_t column = 0; column < sheet.columns; ++column)
+            for (std::size_t n = 6; n < 12; ++n) {
+                const std::int64_t r = row + std::int64_t{sheet_neighbours[n].row_offset};
+                const std::int64_t c = column + std::int64_t{sheet_neighbours[n].column_offset};
+                if (r < 0 || c < 0 || r >= sheet.rows || c >= sheet.columns) continue;
+                f(row * sheet.columns + column, static_cast<std::uint32_t>(r * sheet.columns + c), sheet_neighbours[n]);
+            }
+}
+
+}  // namespace pliant

@@ -1,0 +1,46 @@
+// Where a collider is, and how fast, at a time: keyframes turned into rigid motion.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "pliant/scene.hpp"
+
+namespace pliant {
+
+/// Three unit vectors, the images of x, y and z: a rotation matrix by columns.
+using Rotation = std::array<Vec3d, 3>;
+
+/// R = Rz(degrees.z) Ry(degrees.y) Rx(degrees.x): about x, then y, then z.
+Rotation rotation_from_degrees(Vec3d degrees);
+Vec3d rotate(const Rotation& rotation, Vec3d vector);
+Rotation compose(const Rotation& outer, const Rotation& inner);
+
+/// A rigid motion against the collider's own place.
+struct RigidMotion {
+    Vec3d offset;              ///< m
+    Rotation rotation;         ///< about the collider's centre
+    Vec3d velocity;            ///< m/s
+    Vec3d spin;                ///< rad/s
+};
+
+/// Interpolates linearly between keyframes (positions, and the three angles, so that 0 to 360 is a full turn);
+/// before the first and after the last it stands still.
+RigidMotion motion_at(const std::vector<Keyframe>& keyframes, double time);
+
+/// The shape of a collider at a time, in the world.
+struct PlacedCollider {
+    enum class Kind { sphere, plane, box, capsule } kind = Kind::sphere;
+    Vec3d centre;         ///< m; of a plane: its point
+    Rotation axes;        ///< of a box; a plane's normal is axes[1]; a capsule's axis is axes[1]
+    Vec3d half_size;      ///< m; of a box; of a capsule y is half the distance of its ends
+    double radius = 0;    ///< m; of sphere and capsule
+    double friction = 0;
+    ContactResponse response = ContactResponse::coulomb;
+    Vec3d velocity;       ///< m/s, of the centre
+    Vec3d spin;           ///< rad/s
+    bool moves = false;   ///< has keyframes
+};
+PlacedCollider placed_at(const Collider& collider, double time);
+
+}  // namespace pliant

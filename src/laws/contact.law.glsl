@@ -1,0 +1,149 @@
+// Contact with solid shapes. A gap is the signed distance to the surface in m, negative inside; laws that return
+// vec4 return (unit normal outwards, gap).
+
+// What a kernel knows of a collider at one instant. `kind` and `response` are the same for all nodes.
+struct Collider
+{
+    int kind;           // 0 sphere, 1 plane, 2 box, 3 capsule
+    int response;       // 0 Coulomb, 1 as the paper prints it
+    vec3 centre;        // m; a plane's point
+    vec3 axis_x;        // unit vectors of a box; axis_y is a plane's normal and a capsule's direction
+    vec3 axis_y;
+    vec3 axis_z;
+    vec3 half_size;     // m; of a capsule, y is half the distance of its ends
+    real radius;        // m
+    real friction;      // Coulomb's mu
+    vec3 velocity;      // m/s
+    vec3 spin;          // rad/s
+};
+
+// gap = |p - c| - r
+LAW vec4 gap_sphere(vec3 p, vec3 centre, real radius)
+{
+    vec3 d = p - centre;
+    real length2 = dot3(d, d);
+    real inverse_length = inverse_sqrt(length2);
+    vec3 n = choose(length2 > 0.0f, d * inverse_length, vec3(0.0f, 1.0f, 0.0f));  // at the centre any way out will do
+    return vec4(n, length2 * inverse_length - radius);
+}
+
+// gap = (p - q) . n
+LAW vec4 gap_plane(vec3 p, vec3 point, vec3 normal)
+{
+    return vec4(normal, dot3(p - point, normal));
+}
+
+// A sphere around the nearest point of the segment centre +- half_length direction.
+LAW vec4 gap_capsule(vec3 p, vec3 centre, vec3 axis_direction, real half_length, real radius)
+{
+    real along = dot3(p - centre, axis_direction);
+    along = choose(along > half_length, half_length, choose(along < -half_length, -half_length, along));
+    return gap_sphere(p, centre + axis_direction * along, radius);
+}
+
+// Outside, the distance to the nearest point of the box; inside, the way out through the nearest face.
+LAW vec4 gap_box(vec3 p, vec3 centre, vec3 axis_x, vec3 axis_y, vec3 axis_z, vec3 half_size)
+{
+    vec3 d = p - centre;
+    vec3 q = vec3(dot3(d, axis_x), dot3(d, axis_y), dot3(d, axis_z));
+    vec3 side = vec3(choose(q.x < 0.0f, real(-1.0f), real(1.0f)), choose(q.y < 0.0f, real(-1.0f), real(1.0f)),
+                     choose(q.z < 0.0f, real(-1.0f), real(1.0f)));
+    vec3 beyond = vec3(magnitude(q.x), magnitude(q.y), magnitude(q.z)) - half_size;  // per axis; negative within
+
+    vec3 out_of = vec3(largest(beyond.x, real(0.0f)), largest(beyond.y, real(0.0f)), largest(beyond.z, real(0.0f)));
+    real length2 = dot3(out_of, out_of);
+    real inverse_length = inverse_sqrt(length2);
+    vec3 n_out = out_of * inverse_length;
+
+    mask x_nearest = both(beyond.x >= beyond.y, beyond.x >= beyond.z);
+    mask y_nearest = beyond.y >= beyond.z;
+    vec3 n_in = choose(x_nearest, vec3(1.0f, 0.0f, 0.0f),
+                       choose(y_nearest, vec3(0.0f, 1.0f, 0.0f), vec3(0.0f, 0.0f, 1.0f)));
+    real gap_in = largest(beyond.x, largest(beyond.y, beyond.z));
+
+    mask outside = length2 > 0.0f;
+    vec3 n = choose(outside, n_out, n_in);
+    vec3 normal = axis_x * (n.x * side.x) + axis_y * (n.y * side.y) + axis_z * (n.z * side.z);
+    return vec4(normal, choose(outside, length2 * inverse_length, gap_in));
+}
+
+LAW vec4 collider_gap(Collider collider, vec3 p)
+{
+    if (collider.kind == 0) return gap_sphere(p, collider.centre, collider.radius);
+    if (collider.kind == 1) return gap_plane(p, collider.centre, collider.axis_y);
+    if (collider.kind == 2)
+        return gap_box(p, collider.centre, collider.axis_x, collider.axis_y, collider.axis_z, collider.half_size);
+    return gap_capsule(p, collider.centre, collider.axis_y, collider.half_size.y, collider.radius);
+}
+
+// v_s = v_c + w x (p - c)
+LAW vec3 collider_surface_velocity(Collider collider, vec3 p)
+{
+    return collider.velocity + cross3(collider.spin, p - collider.centre);
+}
+
+// Coulomb: against the surface, remove the approaching normal velocity, let friction take at most mu times as much
+// from the tangential one, keep the rest:
+//   r = v - v_s,  r_n = r . n,  r_t = r - r_n n,  v' = v_s + max(r_n, 0) n + max(1 - mu max(-r_n, 0) / |r_t|, 0) r_t
+LAW vec3 contact_velocity(vec3 velocity, vec3 surface_velocity, vec3 n, real friction)
+{
+    vec3 r = velocity - surface_velocity;
+    real normal_part = dot3(r, n);
+    vec3 tangential = r - n * normal_part;
+    real approach = largest(-normal_part, real(0.0f));
+    real kept = largest(1.0f - friction * approach * inverse_sqrt(dot3(tangential, tangential)), real(0.0f));
+    return surface_velocity + tangential * kept + n * largest(normal_part, real(0.0f));
+}
+
+// The predicted position p' = x + dt v, put on the surface; along the surface it moves with the new velocity, so that
+// a node that sticks does not creep:  p = p' - gap n + dt (I - n n^T) (v' - v)
+LAW vec3 contact_position(vec3 predicted, vec3 n, real gap, vec3 velocity, vec3 next_velocity, real dt)
+{
+    vec3 change = next_velocity - velocity;
+    vec3 tangential = change - n * dot3(change, n);
+    return predicted - n * gap + tangential * dt;
+}
+
+// Algorithm 4 of the cloth paper as printed:  v' = d / |d| + v / |v|,  with d = p_0 - O outwards.
+// It has no units of velocity; v = 0, which divides by zero as printed, adds nothing here.
+LAW vec3 contact_velocity_paper(vec3 velocity, vec3 n)
+{
+    return n + direction(velocity);
+}
+
+// p_1 = O + d / |d| (r + offset), for any shape: out along the normal at the position before the step.
+LAW vec3 contact_position_paper(vec3 before, vec3 n_before, real gap_before)
+{
+    return before - n_before * gap_before;
+}
+
+struct Motion
+{
+    vec3 position;  // m
+    vec3 velocity;  // m/s
+};
+
+// One collider's say in a step: `now` is the node before the step, `next` what the integrator made of it. The cloth
+// keeps `thickness` between itself and the surface; a pinned node (inverse mass 0) is not moved.
+LAW Motion contact_step(Motion now, Motion next, Collider collider, real thickness, real inverse_mass, real dt)
+{
+    vec4 contact = collider_gap(collider, next.position);
+    vec3 n = xyz(contact);
+    real gap = contact.w - thickness;
+    mask touching = both(gap < 0.0f, inverse_mass > 0.0f);
+    if (!any_lane(touching)) return next;
+
+    Motion after;
+    if (collider.response == 1) {
+        vec4 before = collider_gap(collider, now.position);
+        after.position = contact_position_paper(now.position, xyz(before), before.w - thickness);
+        after.velocity = contact_velocity_paper(next.velocity, xyz(before));
+    } else {
+        vec3 surface_velocity = collider_surface_velocity(collider, next.position);
+        after.velocity = contact_velocity(next.velocity, surface_velocity, n, collider.friction);
+        after.position = contact_position(next.position, n, gap, next.velocity, after.velocity, dt);
+    }
+    next.position = choose(touching, after.position, next.position);
+    next.velocity = choose(touching, settled_velocity(after.velocity), next.velocity);
+    return next;
+}

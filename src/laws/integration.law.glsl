@@ -1,0 +1,26 @@
+// Symplectic Euler, velocity first: eq. (7)-(8) of the cloth paper without its constraint term.
+
+// A velocity component under 2^-64 m/s counts as rest. That is two millimetres in a billion years, and
+// it keeps the state out of the denormal numbers, which some devices flush to zero and others do not.
+LAW real settled(real a)
+{
+    return choose(magnitude(a) < 5.421011e-20f, real(0.0f), a);
+}
+LAW vec3 settled_velocity(vec3 v)
+{
+    return vec3(settled(v.x), settled(v.y), settled(v.z));
+}
+
+// v' = (1 - d dt) v + dt (f / m + g),  with decay = 1 - d dt of the global damping d (1/s); a pinned node
+// (inverse mass 0) stays where it is.
+LAW vec3 velocity_step(vec3 velocity, vec3 force, real inverse_mass, vec3 gravity, real decay, real dt)
+{
+    vec3 next = velocity * decay + (force * inverse_mass + gravity) * dt;
+    return choose(inverse_mass > 0.0f, settled_velocity(next), vec3(0.0f, 0.0f, 0.0f));
+}
+
+// x' = x + dt v'
+LAW vec3 position_step(vec3 position, vec3 next_velocity, real dt)
+{
+    return position + next_velocity * dt;
+}

@@ -1,0 +1,30 @@
+// Springs: eq. (1)-(2) of the cloth paper.
+
+// Force on node i of the spring to node j, N:
+//   f_i = (k (l - l0) + c (v_j - v_i) . n) n,   n = (x_j - x_i) / l,   f_j = -f_i bit for bit.
+// Coincident nodes have no direction and push nowhere.
+LAW vec3 spring_force(vec3 xi, vec3 xj, vec3 vi, vec3 vj, real rest_length, real stiffness, real damping)
+{
+    vec3 d = xj - xi;
+    real length2 = dot3(d, d);
+    real inverse_length = inverse_sqrt(length2);
+    vec3 n = d * inverse_length;
+    return n * (stiffness * (length2 * inverse_length - rest_length) + damping * dot3(vj - vi, n));
+}
+
+// (l - l0) / l0
+LAW real spring_stretch(vec3 xi, vec3 xj, real rest_length)
+{
+    vec3 d = xj - xi;
+    real length2 = dot3(d, d);
+    return length2 * inverse_sqrt(length2) * inverse_sqrt(rest_length * rest_length) - 1.0f;
+}
+
+// k (l - l0)^2 / 2, J
+LAW real spring_energy(vec3 xi, vec3 xj, real rest_length, real stiffness)
+{
+    vec3 d = xj - xi;
+    real length2 = dot3(d, d);
+    real extension = length2 * inverse_sqrt(length2) - rest_length;
+    return 0.5f * stiffness * extension * extension;
+}

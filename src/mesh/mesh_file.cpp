@@ -1,0 +1,125 @@
+// read_mesh and write_mesh: the ending of the name decides on the format.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <new>
+
+#include "mesh/atomic_file.hpp"
+#include "mesh/mesh_formats.hpp"
+#include "mesh/text_scan.hpp"
+#include "pliant/error.hpp"
+
+namespace pliant {
+
+namespace {
+
+struct MeshFormat {
+    std::string_view ending;
+    SurfaceMesh (*read)(const MeshSource&);
+    void (*write)(std::ostream&, const SurfaceMesh&);
+};
+constexpr std::array formats = {MeshFormat{".ply", read_ply, write_ply},
+                                MeshFormat{".obj", read_obj, write_obj}};
+
+[[noreturn]] void fail(std::string_view action, const std::filesystem::path& file, const std::string& reason)
+{
+    throw Error(ErrorKind::bad_input,
+                "cannot " + std::string(action) + " '" + file.string() + "': " + reason);
+}
+
+const MeshFormat& format_of(std::string_view action, const std::filesystem::path& file)
+{
+    const std::string ending = file.extension().string();
+    std::string lowered = ending;
+    for (char& c : lowered)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    for (const MeshFormat& format : formats)
+        if (format.ending == lowered) return format;
+    const std::string found = ending.empty() ? "it has no ending" : "its ending is " + in_quotes(ending);
+    fail(action, file, found + ", but meshes end in .ply or .obj");
+}
+
+std::string file_contents(const std::filesystem::path& file)
+{
+    std::error_code error;
+    const auto status = std::filesystem::status(file, error);
+    if (!std::filesystem::exists(status)) fail("read", file, "there is no such file; check the path");
+    if (std::filesystem::is_directory(status))
+        fail("read", file, "it is a folder; give the name of a mesh file");
+    // A pipe could block for ever, a device never end.
+    if (!std::filesystem::is_regular_file(status))
+        fail("read", file, "it is no plain file; save the mesh to one");
+
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) fail("read", file, "it cannot be opened; check the permissions");
+    const auto size = std::filesystem::file_size(file, error);
+    if (error) fail("read", file, "its size cannot be told (" + error.message() + ")");
+    if (size == 0) fail("read", file, "it is empty (0 bytes); export the mesh again");
+
+    std::string contents(size, '\0');
+    stream.read(contents.data(), static_cast<std::streamsize>(size));
+    if (static_cast<std::uintmax_t>(stream.gcount()) != size)
+        fail("read", file, "it became shorter while it was read; try again");
+    return contents;
+}
+
+}  // namespace
+
+SurfaceMesh read_mesh(const std::filesystem::path& file)
+{
+    const MeshFormat& format = format_of("read", file);
+    try {
+        const std::string contents = file_contents(file);
+        return format.read({file.string(), contents});
+    } catch (const std::bad_alloc&) {
+        fail("read", file, "it does not fit into memory; use a smaller mesh");
+    }
+}
+
+void write_mesh(const std::filesystem::path& file, const SurfaceMesh& mesh)
+{
+    const MeshFormat& format = format_of("write", file);
+    // What is written can be read again.
+    if (mesh.vertices.empty()) fail("write", file, "the mesh has no vertices");
+    require_valid(mesh);
+    AtomicFile target(file);
+    format.write(target.stream(), mesh);
+    target.commit();
+}
+
+void require_valid(const SurfaceMesh& mesh)
+{
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+        const Vec3 v = mesh.vertices[i];
+        for (const float value : {v.x, v.y, v.z})
+            if (!std::isfinite(value))
+                throw Error(ErrorKind::bad_input, "vertex " + std::to_string(i) +
+                                                      " of the mesh has the coordinate " +
+                                                      number_text(value) + "; coordinates must be finite");
+    }
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+        for (const std::uint32_t index : mesh.triangles[i])
+            if (index >= mesh.vertices.size())
+                throw Error(ErrorKind::bad_input, "triangle " + std::to_string(i) +
+                                                      " of the mesh uses vertex " + std::to_string(index) +
+                                                      ", but there are only " +
+                                                      std::to_string(mesh.vertices.size()) + " vertices");
+}
+
+void mesh_error(const MeshSource& source, const std::string& message)
+{
+    throw Error(ErrorKind::bad_input, source.name + ": " + message);
+}
+
+void mesh_error_at_line(const MeshSource& source, std::size_t line, const std::string& message)
+{
+    throw Error(ErrorKind::bad_input, source.name + ", line " + std::to_string(line) + ": " + message);
+}
+
+void mesh_error_at_byte(const MeshSource& source, std::size_t byte, const std::string& message)
+{
+    throw Error(ErrorKind::bad_input, source.name + ", byte " + std::to_string(byte) + ": " + message);
+}
+
+}  // namespace pliant

@@ -1,0 +1,33 @@
+// What the mesh readers and writers share; private to src/mesh.
+#pragma once
+
+#include <cstddef>
+#include <ostream>
+#include <string>
+#include <string_view>
+
+#include "pliant/mesh.hpp"
+
+namespace pliant {
+
+/// A file in memory, with the name that messages call it.
+struct MeshSource {
+    std::string name;
+    std::string_view bytes;
+};
+
+/// Throw Error(bad_input): "name, line 12: message".
+[[noreturn]] void mesh_error(const MeshSource& source, const std::string& message);
+[[noreturn]] void mesh_error_at_line(const MeshSource& source, std::size_t line, const std::string& message);
+[[noreturn]] void mesh_error_at_byte(const MeshSource& source, std::size_t byte, const std::string& message);
+
+SurfaceMesh read_ply(const MeshSource& source);
+SurfaceMesh read_obj(const MeshSource& source);
+
+void write_ply(std::ostream& out, const SurfaceMesh& mesh);
+void write_obj(std::ostream& out, const SurfaceMesh& mesh);
+
+/// Throws Error(bad_input) unless every index has its vertex and every coordinate is finite.
+void require_valid(const SurfaceMesh& mesh);
+
+}  // namespace pliant

@@ -1,0 +1,127 @@
+#include "record/cache_file.hpp"
+
+#include <cstdint>
+#include <cstdio>
+#include <bit>
+#include <limits>
+
+#include "mesh/atomic_file.hpp"
+
+namespace pliant {
+namespace {
+
+/// All cloths of a simulation as one mesh.
+SurfaceMesh whole_mesh(Simulation& simulation)
+{
+    SurfaceMesh mesh;
+    for (std::size_t c = 0; c < simulation.scene().cloth_count(); ++c) {
+        const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+        const auto positions = simulation.positions(c);
+        mesh.vertices.insert(mesh.vertices.end(), positions.begin(), positions.end());
+        for (const Triangle& t : simulation.triangles(c))
+            mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    }
+    return mesh;
+}
+
+/// "POINTCACHE2", version 1: a header of 32 bytes, then the positions of every sample; little-endian.
+class PointCache final : public CacheFile {
+public:
+    explicit PointCache(const std::filesystem::path& file) : path_(file), file_(file) {}
+
+    void add(Simulation& simulation, std::uint64_t) override
+    {
+        if (samples_ == 0) {
+            if (simulation.node_count() > static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max()))
+                throw Error(ErrorKind::bad_input, "a .pc2 cache holds at most 2147483647 points; use a sequence of .ply");
+            points_ = static_cast<std::int32_t>(simulation.node_count());
+            write_header();
+            std::filesystem::path mesh = path_;
+            write_mesh(mesh.replace_extension(".obj"), whole_mesh(simulation));
+        }
+        for (std::size_t c = 0; c < simulation.scene().cloth_count(); ++c) {
+            const auto positions = simulation.positions(c);
+            file_.stream().write(reinterpret_cast<const char*>(positions.data()),
+                                 static_cast<std::streamsize>(positions.size_bytes()));
+        }
+        ++samples_;
+    }
+    void finish() override
+    {
+        file_.stream().seekp(0);
+        write_header();  // now with the number of samples
+        file_.commit();
+    }
+
+private:
+    void write_header()
+    {
+        static_assert(std::endian::native == std::endian::little, "the cache is written as it lies in memory");
+        const auto write = [&](const auto& value) {
+            file_.stream().write(reinterpret_cast<const char*>(&value), sizeof value);
+        };
+        constexpr std::int32_t version = 1;
+        constexpr float start_frame = 0, samples_per_frame = 1;
+        file_.stream().write("POINTCACHE2\0", 12);
+        write(version);
+        write(points_);
+        write(start_frame);
+        write(samples_per_frame);
+        write(samples_);
+    }
+
+    std::filesystem::path path_;
+    AtomicFile file_;
+    std::int32_t points_ = 0, samples_ = 0;
+};
+
+class MeshSequence final : public CacheFile {
+public:
+    explicit MeshSequence(const std::string& pattern) : names_(pattern) {}
+    void add(Simulation& simulation, std::uint64_t frame) override
+    {
+        write_mesh(names_.at(frame), whole_mesh(simulation));
+    }
+    void finish() override {}
+
+private:
+    NumberedName names_;
+};
+
+}  // namespace
+
+NumberedName::NumberedName(const std::string& pattern)
+{
+    const auto refuse = [&] {
+        throw Error(ErrorKind::bad_usage, "the name '" + pattern +
+                                              "' must hold the frame's number exactly once, as %d or %04d, for example "
+                                              "seq_%04d.ply");
+    };
+    const std::size_t percent = pattern.find('%');
+    if (percent == std::string::npos || pattern.find('%', percent + 1) != std::string::npos) refuse();
+    std::size_t end = percent + 1;
+    while (end < pattern.size() && pattern[end] >= '0' && pattern[end] <= '9') ++end;
+    const std::string digits = pattern.substr(percent + 1, end - percent - 1);
+    if (end == pattern.size() || pattern[end] != 'd' || digits.size() > 2 || (!digits.empty() && digits[0] != '0')) refuse();
+    if (!digits.empty()) digits_ = std::stoi(digits);
+    before_ = pattern.substr(0, percent);
+    after_ = pattern.substr(end + 1);
+}
+
+std::filesystem::path NumberedName::at(std::uint64_t number) const
+{
+    std::string digits = std::to_string(number);
+    if (digits.size() < static_cast<std::size_t>(digits_)) digits.insert(0, static_cast<std::size_t>(digits_) - digits.size(), '0');
+    return before_ + digits + after_;
+}
+
+std::unique_ptr<CacheFile> make_cache_file(const std::string& name)
+{
+    const std::string ending = std::filesystem::path(name).extension().string();
+    if (ending == ".pc2") return std::make_unique<PointCache>(name);
+    if (ending == ".ply" || ending == ".obj") return std::make_unique<MeshSequence>(name);
+    throw Error(ErrorKind::bad_usage,
+                "a cache named '" + name + "' is of no known kind: use NAME.pc2, NAME_%04d.ply or NAME_%04d.obj");
+}
+
+}  // namespace pliant

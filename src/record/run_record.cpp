@@ -1,0 +1,133 @@
+#include "record/run_record.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include <nlohmann/json.hpp>
+
+namespace pliant {
+
+StatisticsFile::StatisticsFile(const std::filesystem::path& file) : file_(file)
+{
+    file_.stream() << "frame,time_s,max_stretch,mean_stretch,max_penetration_m,max_speed_m_per_s,kinetic_energy_J,"
+                      "elastic_energy_J,potential_energy_J,non_finite_nodes,wall_ms\n";
+}
+
+void StatisticsFile::add(const Report& report, double wall_milliseconds)
+{
+    const FrameMeasures& m = report.measures;
+    char line[512];
+    std::snprintf(line, sizeof line, "%llu,%.9g,%.6g,%.6g,%.6g,%.6g,%.9g,%.9g,%.9g,%llu,%.4g\n",
+                  static_cast<unsigned long long>(report.frames), report.simulated_seconds, m.max_stretch, m.mean_stretch,
+                  m.max_penetration, m.max_speed, m.kinetic_energy, m.elastic_energy, m.potential_energy,
+                  static_cast<unsigned long long>(m.non_finite), wall_milliseconds);
+    file_.stream() << line;
+}
+
+void RunSummary::add_frame(const Report& report)
+{
+    frames_.push_back({report.simulated_seconds, report.measures.max_stretch, report.measures.mean_stretch});
+    max_stretch_peak_ = std::max(max_stretch_peak_, report.measures.max_stretch);
+    max_penetration_ = std::max(max_penetration_, report.measures.max_penetration);
+}
+
+double RunSummary::max_stretch(double until) const
+{
+    double most = frames_.empty() ? 0 : frames_.back().max;
+    for (const FrameStretch& frame : frames_)
+        if (frame.time > until - 1) most = std::max(most, frame.max);
+    return most;
+}
+
+double RunSummary::mean_stretch(double until) const
+{
+    double sum = 0, count = 0;
+    for (const FrameStretch& frame : frames_)
+        if (frame.time > until - 1) sum += frame.mean, count += 1;
+    return count > 0 ? sum / count : 0;
+}
+
+std::map<std::string, double> RunSummary::values(Simulation& simulation) const
+{
+    const Report& report = simulation.report();
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    for (std::size_t c = 0; c < simulation.scene().cloth_count(); ++c)
+        for (const Vec3& x : simulation.positions(c)) {
+            lowest = std::min<double>(lowest, x.y);
+            highest = std::max<double>(highest, x.y);
+        }
+    const double wall = std::max(report.wall_seconds, 1e-9);
+    return {{"nodes", static_cast<double>(simulation.node_count())},
+            {"springs", static_cast<double>(simulation.spring_count())},
+            {"triangles", static_cast<double>(simulation.triangle_count())},
+            {"frames", static_cast<double>(report.frames)},
+            {"steps", static_cast<double>(report.steps)},
+            {"simulated_seconds", report.simulated_seconds},
+            {"frames_per_second", static_cast<double>(report.frames) / wall},
+            {"real_time_factor", report.simulated_seconds / wall},
+            {"max_stretch", max_stretch(report.simulated_seconds)},
+            {"max_stretch_peak", max_stretch_peak_},
+            {"mean_stretch", mean_stretch(report.simulated_seconds)},
+            {"max_penetration", max_penetration_},
+            {"kinetic_energy", report.measures.kinetic_energy},
+            {"elastic_energy", report.measures.elastic_energy},
+            {"lowest_height", lowest},
+            {"highest_height", highest},
+            {"finite", report.finite ? 1.0 : 0.0}};
+}
+
+void RunSummary::write(const std::filesystem::path& file, Simulation& simulation, double wall_seconds) const
+{
+    const auto numbers = values(simulation);
+    nlohmann::ordered_json summary;
+    summary["scene"] = simulation.scene().name;
+    summary["backend"] = name_of(simulation.backend());
+    summary["device"] = simulation.device_name();
+    summary["threads"] = simulation.thread_count();
+    for (const char* key : {"nodes", "springs", "triangles", "frames", "steps"})
+        summary[key] = static_cast<std::uint64_t>(numbers.at(key));
+    summary["simulated_seconds"] = simulation.report().simulated_seconds;
+    summary["step_seconds"] = simulation.step_length();
+    summary["stable_step_seconds"] = std::isfinite(simulation.stable_step())
+                                         ? nlohmann::ordered_json(simulation.stable_step())
+                                         : nlohmann::ordered_json(nullptr);
+    summary["wall_seconds"] = wall_seconds;
+    summary["simulation_seconds"] = simulation.report().wall_seconds;
+    for (const char* key : {"frames_per_second", "real_time_factor", "max_stretch", "max_stretch_peak", "mean_stretch",
+                            "max_penetration", "kinetic_energy", "elastic_energy", "lowest_height", "highest_height"})
+        summary[key] = numbers.at(key);
+    summary["finite"] = simulation.report().finite;
+    summary["state_hash"] = hash_text(simulation.state_hash());
+    auto& passes = summary["passes"] = nlohmann::ordered_json::object();
+    for (const PassTime& pass : simulation.pass_times()) passes[pass.name] = pass.milliseconds;
+
+    AtomicFile target(file);
+    target.stream() << summary.dump(2) << '\n';
+    target.commit();
+}
+
+std::vector<std::string> failed_checks(const Scene& scene, const std::map<std::string, double>& values)
+{
+    std::vector<std::string> failures;
+    for (const Check& check : scene.checks) {
+        const auto found = values.find(check.value);
+        if (found == values.end()) continue;  // the reader allows only names of the summary
+        if (found->second >= check.min && found->second <= check.max) continue;
+        char text[256];
+        std::snprintf(text, sizeof text, "%s is %.6g, and the scene asks for %.6g to %.6g", check.value.c_str(),
+                      found->second, check.min, check.max);
+        failures.emplace_back(text);
+    }
+    return failures;
+}
+
+std::string hash_text(std::uint64_t hash)
+{
+    char text[17];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+    return text;
+}
+
+}  // namespace pliant

@@ -1,0 +1,57 @@
+// What is kept of a run: per-frame statistics (CSV) and the summary (JSON).
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesh/atomic_file.hpp"
+#include "pliant/simulation.hpp"
+
+namespace pliant {
+
+/// Per-frame statistics as CSV; the header names every column with its unit.
+class StatisticsFile {
+public:
+    explicit StatisticsFile(const std::filesystem::path& file);
+    /// The state after a frame; `wall_milliseconds` is what its simulation took.
+    void add(const Report& report, double wall_milliseconds);
+    void finish() { file_.commit(); }
+
+private:
+    AtomicFile file_;
+};
+
+/// Gathers what the summary says beyond the last frame.
+class RunSummary {
+public:
+    void add_frame(const Report& report);
+
+    /// The keys of the summary that are numbers, by name; for checks and for the JSON.
+    std::map<std::string, double> values(Simulation& simulation) const;
+    /// Writes the summary as JSON; `wall_seconds` is the whole run's, with pictures and files.
+    void write(const std::filesystem::path& file, Simulation& simulation, double wall_seconds) const;
+
+    double max_stretch(double until) const;  ///< over the last simulated second
+    double mean_stretch(double until) const;
+    double max_stretch_peak() const { return max_stretch_peak_; }
+    double max_penetration() const { return max_penetration_; }
+
+private:
+    struct FrameStretch {
+        double time = 0, max = 0, mean = 0;
+    };
+    std::vector<FrameStretch> frames_;
+    double max_stretch_peak_ = 0;
+    double max_penetration_ = 0;
+};
+
+/// The scene's checks that do not hold, one sentence each; empty when all do.
+std::vector<std::string> failed_checks(const Scene& scene, const std::map<std::string, double>& values);
+
+/// 16 hexadecimal digits.
+std::string hash_text(std::uint64_t hash);
+
+}  // namespace pliant

@@ -1,0 +1,32 @@
+// A picture that no one sees: drawn to an image of the device and copied to the host.
+#pragma once
+
+#include "render/image.hpp"
+#include "render/picture_pass.hpp"
+
+namespace pliant::vulkan {
+
+class OffscreenTarget {
+public:
+    /// Throws Error(device_failure) when the device cannot draw a picture of this size.
+    OffscreenTarget(const Device& device, vk::Extent2D size);
+
+    const PictureFormat& format() const { return format_; }
+    PictureTarget target() const { return {*pass_, *framebuffer_, size_, format_.samples}; }
+
+    /// Behind the drawing, in the same commands: the picture on its way to the host.
+    void record_copy(const vk::raii::CommandBuffer& commands) const;
+    /// When those have run. Allocates only if `into` had another size.
+    void read(Image& into) const;
+
+private:
+    vk::Extent2D size_;
+    PictureFormat format_;
+    vk::raii::RenderPass pass_;
+    DeviceImage picture_;
+    PictureBuffers buffers_;
+    vk::raii::Framebuffer framebuffer_;
+    Buffer copy_;
+};
+
+}  // namespace pliant::vulkan

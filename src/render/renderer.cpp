@@ -1,0 +1,83 @@
+#include "render/renderer.hpp"
+
+#include <string>
+
+#include "pliant/error.hpp"
+
+namespace pliant {
+namespace {
+
+/// What Vulkan throws, as the one error that Pliant throws.
+template <class Action>
+auto on_device(const vulkan::Device& device, Action&& action)
+{
+    try {
+        return action();
+    } catch (const vk::SystemError& error) {
+        throw Error(ErrorKind::device_failure, "the device " + device.info().name +
+                                                   " cannot draw: " + error.what() +
+                                                   "; run without --render, or choose another device");
+    }
+}
+
+const std::shared_ptr<vulkan::Device>& able(const std::shared_ptr<vulkan::Device>& device)
+{
+    if (!device) throw Error(ErrorKind::bad_usage, "a renderer needs a device");
+    if (!device->can_draw())
+        throw Error(ErrorKind::device_failure,
+                    "the device " + device->info().name +
+                        " computes but does not draw; run without --render, or choose "
+                        "another device");
+    return device;
+}
+
+}  // namespace
+
+struct Renderer::Implementation {
+    Implementation(const std::shared_ptr<vulkan::Device>& device, const Scene& scene,
+                   std::span<const ClothTopology> topologies)
+        : camera(scene.camera),
+          target(*device, {camera.width, camera.height}),
+          drawing(device, scene, topologies, target.target()),
+          commands(device->make_commands())
+    {
+    }
+
+    Camera camera;
+    vulkan::OffscreenTarget target;
+    vulkan::SceneDrawing drawing;
+    vk::raii::CommandBuffer commands;
+};
+
+Renderer::Renderer(std::shared_ptr<vulkan::Device> device, const Scene& scene,
+                   std::span<const ClothTopology> topologies)
+    : device_(able(device)),
+      implementation_(
+          on_device(*device_, [&] { return std::make_unique<Implementation>(device_, scene, topologies); }))
+{
+}
+
+Renderer::~Renderer() = default;
+
+Image Renderer::draw(double time, std::span<const ClothFrame> frames)
+{
+    Image image;
+    draw(time, frames, image);
+    return image;
+}
+
+void Renderer::draw(double time, std::span<const ClothFrame> frames, Image& into)
+{
+    on_device(*device_, [&] {
+        auto& [camera, target, drawing, commands] = *implementation_;
+        drawing.prepare(camera, target.target().size, time, frames);
+        commands.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
+        drawing.record(commands, target.target());
+        target.record_copy(commands);
+        commands.end();
+        device_->run(commands);
+        target.read(into);
+    });
+}
+
+}  // namespace pliant

@@ -1,0 +1,36 @@
+// Pictures of a simulation, drawn off-screen.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "render/image.hpp"
+#include "render/offscreen_target.hpp"
+#include "render/scene_drawing.hpp"
+
+namespace pliant {
+
+/// Draws a scene as its camera sees it. With a simulation on Vulkan give it the simulation's own device
+/// (DeviceState::device()), and frames need not leave the device.
+class Renderer {
+public:
+    /// One topology for each cloth of the scene. Throws Error(device_failure) when the device cannot draw.
+    Renderer(std::shared_ptr<vulkan::Device> device, const Scene& scene,
+             std::span<const ClothTopology> topologies);
+    ~Renderer();
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+
+    /// The scene at a time in s, which places the colliders. Throws Error(device_failure) when the device is
+    /// lost.
+    Image draw(double time, std::span<const ClothFrame> frames);
+    /// The same into a picture that is kept from frame to frame: no allocation.
+    void draw(double time, std::span<const ClothFrame> frames, Image& into);
+
+private:
+    struct Implementation;
+    std::shared_ptr<vulkan::Device> device_;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace pliant

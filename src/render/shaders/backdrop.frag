@@ -1,0 +1,11 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "frame.glsl"
+#include "shading.glsl"
+
+layout(location = 0) out vec4 colour;
+
+void main()
+{
+    colour = vec4(backdrop(gl_FragCoord.y * frame.picture.w), 1.0);
+}

@@ -1,0 +1,16 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "frame.glsl"
+#include "cloth_nodes.glsl"
+
+layout(location = 0) out vec3 point;
+layout(location = 1) out vec3 normal;
+layout(location = 2) out vec3 pattern_and_strain;
+
+void main()
+{
+    point = positions[gl_VertexIndex].xyz;
+    normal = normals[gl_VertexIndex].xyz;
+    pattern_and_strain = vec3(pattern[gl_VertexIndex], strains[gl_VertexIndex]);
+    gl_Position = frame.clip_from_world * vec4(point, 1.0);
+}

@@ -1,0 +1,5 @@
+// Where the legend lies: measured in squares of `unit` pixels from its upper left corner.
+const vec2 legend_size = vec2(120.0, 26.0), legend_margin = vec2(12.0, 10.0);
+
+float legend_unit() { return max(1.0, floor(min(frame.picture.y / 360.0, frame.picture.x / 400.0))); }
+vec2 legend_corner() { return frame.picture.xy - (legend_size + legend_margin) * legend_unit(); }

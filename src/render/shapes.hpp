@@ -1,0 +1,53 @@
+// The meshes that colliders are drawn with, and how one is put in its place.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "body/collider_motion.hpp"
+
+namespace pliant {
+
+/// A corner of a unit mesh; `corner` and `corner_normal` in shaders/shape.glsl.
+struct ShapeVertex {
+    std::array<float, 3> position;
+    float half;  ///< -1 or 1: which way stretching moves it along y
+    std::array<float, 3> normal;
+};
+
+/// All unit meshes in one vertex and one index list.
+struct ShapeMeshes {
+    struct Range {
+        std::uint32_t first_index = 0, index_count = 0;
+    };
+    std::vector<ShapeVertex> vertices;
+    std::vector<std::uint32_t> indices;
+    Range round;  ///< sphere of radius 1, cut at the equator: also a capsule
+    Range cube;   ///< [-1, 1]^3
+};
+ShapeMeshes make_shape_meshes();
+
+/// The push constants of shaders/shape.glsl.
+struct ShapePlacement {
+    std::array<std::array<float, 4>, 3> axes;
+    std::array<float, 4> size;
+    std::array<float, 4> colour;
+};
+
+/// The push constants of shaders/ground.glsl.
+struct GroundPlacement {
+    std::array<float, 4> place;
+    float spacing;   ///< m between grid lines
+    float strength;  ///< 1 for a collider, less for a floor that only catches the shadow
+};
+
+/// What to draw for a collider. Round shapes are drawn smaller by `inset` (m) because the flat triangles of a
+/// cloth that lies on them cut their corners.
+ShapePlacement placement_of(const PlacedCollider& collider, double inset);
+ShapeMeshes::Range mesh_of(const PlacedCollider& collider, const ShapeMeshes& meshes);
+
+/// A horizontal plane that faces upwards is the ground.
+bool is_ground(const PlacedCollider& collider);
+
+}  // namespace pliant

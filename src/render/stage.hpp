@@ -1,0 +1,55 @@
+// Where a scene plays: the room that cloth and colliders take, the floor under them, the sun above, and the
+// camera.
+#pragma once
+
+#include <array>
+
+#include "pliant/scene.hpp"
+#include "render/matrix.hpp"
+#include "render/shapes.hpp"
+
+namespace pliant {
+
+/// An axis-aligned box, empty until something is put in.
+struct Bounds {
+    Vec3d min{1e30, 1e30, 1e30}, max{-1e30, -1e30, -1e30};  ///< m
+
+    bool empty() const { return min.x > max.x; }
+    void include(Vec3d point, double radius = 0);
+    void clip(const Bounds& other);
+};
+
+/// Fixed for the whole run, so that light and shadow do not swim when something moves.
+struct Stage {
+    Vec3d to_light;             ///< unit length
+    Matrix4 shadow_from_world;  ///< xy onto [0, 1] of the shadow map, z its depth
+    double shadow_extent = 1;   ///< m, edge of the square that the shadow map covers
+    double floor_height = 0;    ///< m, of the floor that is drawn when the scene has no plane
+    bool has_plane = false;     ///< then that floor is not drawn
+    Vec3d centre;               ///< m, what the camera looks at
+    double view_distance = 1;   ///< m, from the camera to it
+    double inset = 0;           ///< m, see placement_of
+};
+Stage make_stage(const Scene& scene);
+
+/// The floor at a height, around what the camera looks at.
+GroundPlacement ground_at(const Stage& stage, double height, bool collider);
+
+/// `Frame` in shaders/frame.glsl, in the layout std140.
+struct FrameUniforms {
+    std::array<float, 16> clip_from_world;
+    std::array<float, 16> shadow_from_world;
+    std::array<float, 4> eye;
+    std::array<float, 4> to_light;
+    std::array<float, 4> picture;
+    float shadow_texel;
+    float strain_range;
+    float padding[2];
+};
+FrameUniforms frame_uniforms(const Stage& stage, const Camera& camera, std::uint32_t width,
+                             std::uint32_t height, std::uint32_t shadow_map_size);
+
+/// From the world to Vulkan's clip space.
+Matrix4 clip_from_world(const Camera& camera, double width_by_height);
+
+}  // namespace pliant

@@ -1,0 +1,35 @@
+// Pictures as a video: H.264 in MP4, encoded by the program ffmpeg.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+#include "render/image.hpp"
+
+namespace pliant {
+
+/// The file appears under its name when it is complete. What was added is worth keeping: destroyed without
+/// `finish`, by an exception for one, it still becomes a playable file. Without any picture there is no file.
+class VideoFile {
+public:
+    /// Throws Error(bad_input) when ffmpeg is not installed or the file cannot be created. Odd sizes grow by
+    /// one pixel, which the format asks for.
+    VideoFile(const std::filesystem::path& file, std::uint32_t width, std::uint32_t height,
+              double frame_rate);
+    ~VideoFile();
+    VideoFile(const VideoFile&) = delete;
+    VideoFile& operator=(const VideoFile&) = delete;
+
+    /// Throws Error(bad_usage) for a picture of another size, Error(bad_input) with ffmpeg's own words when
+    /// it gave up.
+    void add(const Image& image);
+    /// Waits for the encoder. Throws as `add` does.
+    void finish();
+
+private:
+    class Encoder;
+    std::unique_ptr<Encoder> encoder_;
+};
+
+}  // namespace pliant

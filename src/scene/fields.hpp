@@ -1,0 +1,227 @@
+// Every field of a scene, once: its key in a file, its place in the Scene, its range and its unit.
+//
+// `fields(at, thing)` shows the fields of a thing to a visitor: the ObjectReader fills them from JSON, the
+// Checker of validation.cpp looks at their values, a test compares them with scenes/scene.schema.json. What a
+// visitor offers:
+//
+//   number, vector, choice, name, text    one value
+//   nested(key, inside)                   an object; `inside` shows its fields to the visitor of that object
+//   object(key, thing)                    the same for a thing that has `fields`
+//   list(key, things)                     an array of such objects
+//   one_of(variant, keys, with)           exactly one of the keys, which names the alternative
+//   and what a file says in another way than a Scene: format_version, step_length, mesh_file, cloths, checks
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+#include "pliant/scene.hpp"
+#include "scene/field.hpp"
+
+namespace pliant::scene_format {
+
+enum class Presence { optional, required };
+inline constexpr Presence required = Presence::required;
+
+/// The methods of simulation; a scene names one so that a file stays valid when there are more.
+enum class Method { mass_spring };
+
+// Names in the order of their enumerations.
+inline constexpr std::array method_names{"mass_spring"};
+inline constexpr std::array formulation_names{"automatic", "node_centric", "spring_list"};
+inline constexpr std::array response_names{"coulomb", "paper"};
+inline constexpr std::array colour_names{"checker", "strain"};
+inline constexpr std::array corner_names{"top_left", "top_right", "bottom_left", "bottom_right"};
+inline constexpr std::array edge_names{"top", "bottom", "left", "right"};
+// Keys in the order of their variants' alternatives.
+inline constexpr std::array shape_keys{"sheet", "mesh"};
+inline constexpr std::array pin_keys{"index", "corner", "edge", "box"};
+inline constexpr std::array collider_keys{"sphere", "plane", "box", "capsule"};
+/// Numbers of the summary that a scene may check.
+inline constexpr std::array check_names{"max_stretch",
+                                        "max_stretch_peak",
+                                        "mean_stretch",
+                                        "max_penetration",
+                                        "finite",
+                                        "frames",
+                                        "steps",
+                                        "nodes",
+                                        "springs",
+                                        "triangles",
+                                        "kinetic_energy",
+                                        "elastic_energy",
+                                        "simulated_seconds",
+                                        "real_time_factor",
+                                        "lowest_height",
+                                        "highest_height"};
+
+inline constexpr std::uint32_t max_nodes = 16'777'216;  // 2^24: a node's index is exact in a float, too
+
+// Beyond these, single precision has nothing sensible to say; they keep every sum and product finite.
+inline constexpr Range coordinate{-1e6, 1e6};
+inline constexpr Range extent = above(0, 1e6);
+inline constexpr Range angle{-1e6, 1e6};
+
+/// A thing of type Type, const or not.
+template <class Thing, class Type>
+concept Is = std::same_as<std::remove_const_t<Thing>, Type>;
+
+void fields(auto& at, Is<TimeOptions> auto& time)
+{
+    at.number("duration", time.duration, above(0, 1e6), "s");
+    at.number("frame_rate", time.frame_rate, {1, 10'000}, "1/s");
+    at.number("substeps", time.substeps, {0, 100'000}, "steps");
+    at.step_length("dt", time);  // in place of frame_rate
+}
+
+void fields(auto& at, Is<Air> auto& air)
+{
+    at.vector("velocity", air.velocity, {-1e3, 1e3}, "m/s");
+    at.number("density", air.density, {0, 2'000}, "kg/m3");
+    at.number("drag", air.drag, {0, 100}, "");
+    at.number("lift", air.lift, {0, 100}, "");
+}
+
+void fields(auto& at, Is<Camera> auto& camera)
+{
+    at.vector("position", camera.position, coordinate, "m");
+    at.vector("target", camera.target, coordinate, "m");
+    at.number("field_of_view", camera.field_of_view, {1, 170}, "degrees");
+    at.number("width", camera.width, {16, 8192}, "pixels");
+    at.number("height", camera.height, {16, 8192}, "pixels");
+    at.choice("colour", camera.colour, colour_names);
+}
+
+void fields(auto& at, Is<SpringParameters> auto& springs)
+{
+    at.number("stiffness", springs.stiffness, {0, 1e9}, "N/m");
+    at.number("damping", springs.damping, {0, 1e6}, "N s/m");
+}
+
+void fields(auto& at, Is<Springs> auto& springs)
+{
+    at.object("structural", springs.structural);
+    at.object("shear", springs.shear);
+    at.object("bend", springs.bend);
+}
+
+void fields(auto& at, Is<SheetOptions> auto& sheet)
+{
+    at.number("rows", sheet.rows, {2, max_nodes / 2}, "nodes", required);
+    at.number("columns", sheet.columns, {2, max_nodes / 2}, "nodes", required);
+    at.number("width", sheet.width, extent, "m");
+    at.number("height", sheet.height, extent, "m");
+}
+
+void fields(auto& at, Is<SurfaceMesh> auto& mesh) { at.mesh_file("file", mesh); }
+
+void fields(auto& at, Is<Region> auto& region)
+{
+    at.vector("min", region.min, coordinate, "m", required);
+    at.vector("max", region.max, coordinate, "m", required);
+}
+
+void pin_field(auto& at, const char* key, Is<std::uint32_t> auto& index)
+{
+    at.number(key, index, {0, max_nodes - 1}, "");
+}
+void pin_field(auto& at, const char* key, Is<Corner> auto& corner) { at.choice(key, corner, corner_names); }
+void pin_field(auto& at, const char* key, Is<Edge> auto& edge) { at.choice(key, edge, edge_names); }
+void pin_field(auto& at, const char* key, Is<Region> auto& region) { at.object(key, region); }
+
+void fields(auto& at, Is<Pin> auto& pin)
+{
+    at.one_of(pin, pin_keys, [&](const char* key, auto& where) { pin_field(at, key, where); });
+}
+
+void fields(auto& at, Is<Cloth> auto& cloth)
+{
+    at.name("name", cloth.name);
+    at.one_of(cloth.shape, shape_keys, [&](const char* key, auto& shape) {
+        at.nested(key, [&](auto& inside) {
+            fields(inside, shape);
+            if constexpr (Is<std::remove_reference_t<decltype(shape)>, SurfaceMesh>)
+                inside.number("scale", cloth.scale, extent, "");
+        });
+    });
+    at.number("density", cloth.density, above(0, 1e6), "kg/m2");
+    at.number("node_mass", cloth.node_mass, above(0, 1e6), "kg");
+    at.vector("position", cloth.position, coordinate, "m");
+    at.vector("rotation", cloth.rotation, angle, "degrees");
+    at.vector("velocity", cloth.velocity, {-1e4, 1e4}, "m/s");
+    at.object("springs", cloth.springs);
+    at.choice("formulation", cloth.formulation, formulation_names);
+    at.number("damping", cloth.damping, {0, 1'000}, "1/s");
+    at.number("thickness", cloth.thickness, {0, 1}, "m");
+    at.list("pins", cloth.pins);
+}
+
+void fields(auto& at, Is<Keyframe> auto& keyframe)
+{
+    at.number("time", keyframe.time, {0, 1e6}, "s", required);
+    at.vector("position", keyframe.position, coordinate, "m");
+    at.vector("rotation", keyframe.rotation, angle, "degrees");
+}
+
+void contact_fields(auto& at, auto& shape)
+{
+    at.number("friction", shape.friction, {0, 10}, "");
+    at.choice("response", shape.response, response_names);
+    at.list("keyframes", shape.keyframes);
+}
+
+void fields(auto& at, Is<Sphere> auto& sphere)
+{
+    at.vector("centre", sphere.centre, coordinate, "m", required);
+    at.number("radius", sphere.radius, extent, "m", required);
+    contact_fields(at, sphere);
+}
+
+void fields(auto& at, Is<Plane> auto& plane)
+{
+    at.vector("point", plane.point, coordinate, "m");
+    at.vector("normal", plane.normal, {-1e6, 1e6}, "");
+    contact_fields(at, plane);
+}
+
+void fields(auto& at, Is<Box> auto& box)
+{
+    at.vector("centre", box.centre, coordinate, "m", required);
+    at.vector("size", box.size, extent, "m", required);
+    at.vector("rotation", box.rotation, angle, "degrees");
+    contact_fields(at, box);
+}
+
+void fields(auto& at, Is<Capsule> auto& capsule)
+{
+    at.vector("start", capsule.start, coordinate, "m", required);
+    at.vector("end", capsule.end, coordinate, "m", required);
+    at.number("radius", capsule.radius, extent, "m", required);
+    contact_fields(at, capsule);
+}
+
+void fields(auto& at, Is<Collider> auto& collider)
+{
+    at.one_of(collider, collider_keys, [&](const char* key, auto& shape) { at.object(key, shape); });
+}
+
+void fields(auto& at, Is<Scene> auto& scene)
+{
+    auto method = Method::mass_spring;
+    at.format_version("pliant");
+    at.name("name", scene.name);
+    at.text("description", scene.description);
+    at.choice("method", method, method_names);
+    at.object("time", scene.time);
+    at.vector("gravity", scene.gravity, {-1e4, 1e4}, "m/s2");
+    at.object("air", scene.air);
+    at.cloths("cloths", scene);
+    at.list("colliders", scene.colliders);
+    at.object("camera", scene.camera);
+    at.checks("check", scene.checks);
+}
+
+}  // namespace pliant::scene_format

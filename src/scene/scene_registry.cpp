@@ -1,0 +1,18 @@
+// The built-in scenes as `pliant list` shows them.
+#include "pliant/scene.hpp"
+#include "scene/builtin_scenes.hpp"
+#include "scene/document.hpp"
+
+namespace pliant {
+
+std::vector<SceneListing> list_scenes()
+{
+    std::vector<SceneListing> listings;
+    for (const BuiltinScene& scene : builtin_scenes()) {
+        const auto document = scene_format::parse_document(scene.text, scene.file);
+        listings.push_back({scene.name, document.value("description", ""), scene.file});
+    }
+    return listings;
+}
+
+}  // namespace pliant

@@ -1,0 +1,408 @@
+#include "pliant/simulation.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <map>
+
+#include "backend/cpu/kernels.hpp"
+#include "backend/pass_runner.hpp"
+#include "backend/vulkan/vulkan_runner.hpp"
+#include "body/cloth_model.hpp"
+#include "solve/mass_spring.hpp"
+
+namespace pliant {
+namespace {
+
+bool hardware_gpu_exists()
+{
+    for (const auto& device : vulkan::list_physical_devices())
+        if (device.hardware) return true;
+    return false;
+}
+
+Backend resolve(const SimulationOptions& options)
+{
+    if (options.backend != Backend::automatic) return options.backend;
+    return options.device >= 0 || hardware_gpu_exists() ? Backend::vulkan : Backend::cpu;
+}
+
+bool all_rest(const std::vector<Collider>& colliders)
+{
+    for (const Collider& collider : colliders)
+        if (placed_at(collider, 0).moves) return false;
+    return true;
+}
+
+/// FNV-1a, 64 bit, over the bytes of floats.
+class StateHash {
+public:
+    void add(std::span<const Vec3> values)
+    {
+        for (const Vec3& v : values)
+            for (const float number : {v.x, v.y, v.z}) {
+                std::uint32_t bits = 0;
+                std::memcpy(&bits, &number, sizeof bits);
+                for (int byte = 0; byte < 4; ++byte) hash_ = (hash_ ^ (bits >> (8 * byte) & 0xff)) * 0x100000001b3ull;
+            }
+    }
+    std::uint64_t value() const { return hash_; }
+
+private:
+    std::uint64_t hash_ = 0xcbf29ce484222325ull;
+};
+
+std::string seconds(double s)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g s", s);
+    return text;
+}
+
+}  // namespace
+
+class Simulation::Implementation {
+public:
+    Implementation(const Scene& given, const SimulationOptions& options) : scene(given), backend(resolve(options))
+    {
+        validate(scene);
+        models.reserve(scene.cloth_count());
+        for (std::size_t c = 0; c < scene.cloth_count(); ++c) models.emplace_back(scene.cloth(c), scene);
+        stable_step = std::numeric_limits<double>::infinity();
+        for (const ClothModel& model : models) stable_step = std::min(stable_step, model.stable_step());
+        refuse_too_many_steps();
+        make_runner(options);
+
+        colliders_rest = all_rest(scene.colliders);
+        place_colliders(1, 0);
+        read_backs.resize(models.size());
+        Program program{next_program_id++, {}, parity};
+        append_measures(models, parity, 0, program.calls);
+        runner->run(program, input(0));
+        take_measures();
+    }
+
+    void make_runner(const SimulationOptions& options)
+    {
+        if (backend == Backend::vulkan) {
+            try {
+                auto vulkan = make_vulkan_runner(models, options);
+                device_state = vulkan.get();
+                runner = std::move(vulkan);
+            } catch (const Error&) {
+                if (options.backend == Backend::vulkan || options.device >= 0) throw;
+                backend = Backend::cpu;  // automatic: whatever the GPU's trouble is, the CPU has none
+            }
+        }
+        if (backend == Backend::cpu) runner = make_cpu_runner(models, options);
+        if (backend == Backend::reference) runner = make_reference_runner(models);
+    }
+
+    /// Steps of a stretch of time, and how long each is.
+    std::pair<std::uint64_t, double> steps_of(double duration) const
+    {
+        if (scene.time.substeps > 0) {
+            const double step = 1 / (scene.time.frame_rate * scene.time.substeps);
+            return {static_cast<std::uint64_t>(std::max(1ll, std::llround(duration / step))), step};
+        }
+        constexpr double rounding = 1e-9;
+        const double count = std::max(1.0, std::ceil(duration / stable_step * (1 - rounding)));
+        return {static_cast<std::uint64_t>(count), duration / count};
+    }
+
+    void refuse_too_many_steps() const
+    {
+        constexpr double most = 100'000;  // as many as a scene may ask for by itself
+        const double frame = 1 / scene.time.frame_rate;
+        if (scene.time.substeps == 0 && frame / stable_step > most)
+            throw Error(ErrorKind::bad_input, "time.substeps is 0 (automatic), and a stable step of " + seconds(stable_step) +
+                                                  " would take more than 100000 substeps per frame; use softer springs, "
+                                                  "less damping or heavier nodes");
+    }
+
+    void advance(double duration)
+    {
+        const auto start = std::chrono::steady_clock::now();
+        const auto [steps, step] = steps_of(duration);
+        // A long stretch runs in pieces, so that programs stay short and few.
+        for (std::uint64_t left = steps; left > 0;) {
+            const auto piece = static_cast<std::uint32_t>(std::min<std::uint64_t>(left, most_steps_at_once));
+            run_steps(piece, step);
+            left -= piece;
+        }
+        for (ReadBack& read_back : read_backs) read_back = {};
+        ++report.frames;
+        take_measures();
+        report.validation_messages = runner->validation_messages();
+        report.wall_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    }
+
+    void run_steps(std::uint32_t steps, double step)
+    {
+        const Program& program = frame_program(steps);
+        place_colliders(steps, step);
+        runner->run(program, input(step));
+        parity = program.parity_after;
+        report.simulated_seconds = on_frame(report.simulated_seconds + steps * step);
+        report.steps += steps;
+    }
+
+    /// A time within a millionth of a frame of a whole frame is that frame's: sums of 1/60 must reach 5.0.
+    double on_frame(double time) const
+    {
+        const double frames = time * scene.time.frame_rate, nearest = std::round(frames);
+        return std::abs(frames - nearest) < 1e-6 ? nearest / scene.time.frame_rate : time;
+    }
+
+    const Program& frame_program(std::uint32_t steps)
+    {
+        const auto key = std::make_pair(steps, parity);
+        auto found = programs.find(key);
+        if (found == programs.end() && programs.size() >= most_programs) programs.clear();
+        if (found == programs.end()) {
+            Program program{next_program_id++, {}, 0};
+            program.parity_after = append_mass_spring_frame(models, steps, parity, program.calls);
+            found = programs.emplace(key, std::move(program)).first;
+        }
+        return found->second;
+    }
+
+    void place_colliders(std::uint32_t steps, double step)
+    {
+        const std::size_t count = scene.colliders.size();
+        if (colliders_rest && placed.size() == count) return;
+        placed.resize(colliders_rest ? count : count * steps);
+        for (std::size_t s = 0; s * count < placed.size(); ++s)
+            for (std::size_t k = 0; k < count; ++k)
+                placed[s * count + k] =
+                    placed_at(scene.colliders[k], report.simulated_seconds + static_cast<double>(s + 1) * step);
+    }
+
+    FrameInput input(double step) const
+    {
+        return {step, static_cast<std::uint32_t>(scene.colliders.size()), placed, colliders_rest};
+    }
+
+    void take_measures()
+    {
+        FrameMeasures m;
+        m.max_stretch = -1;
+        double stretch_sum = 0, speed2 = 0;
+        std::uint64_t measured_springs = 0;
+        const double g = std::sqrt(dot(scene.gravity, scene.gravity));
+        for (std::uint32_t c = 0; c < models.size(); ++c) {
+            const MeasureTotals totals = runner->measures(c);
+            m.max_stretch = std::max(m.max_stretch, totals.max_stretch);
+            m.max_penetration = std::max(m.max_penetration, totals.max_penetration);
+            speed2 = std::max(speed2, totals.max_speed2);
+            stretch_sum += totals.stretch_sum;
+            measured_springs += models[c].measured_spring_count();
+            m.kinetic_energy += totals.kinetic_energy;
+            m.elastic_energy += totals.elastic_energy;
+            m.potential_energy += g * totals.height_moment;
+            m.non_finite += static_cast<std::uint64_t>(totals.non_finite);
+        }
+        m.max_speed = std::sqrt(speed2);
+        m.mean_stretch = measured_springs > 0 ? stretch_sum / static_cast<double>(measured_springs) : 0;
+        if (measured_springs == 0) m.max_stretch = 0;
+        report.measures = m;
+        if (m.non_finite > 0 && report.finite) find_bad_node();
+    }
+
+    void find_bad_node()
+    {
+        report.finite = false;
+        report.bad_frame = report.frames;
+        const auto finite = [](Vec3 a) { return std::isfinite(a.x * a.x + a.y * a.y + a.z * a.z); };
+        for (std::size_t c = 0; c < models.size(); ++c) {
+            const auto x = values(c, Resource::position), v = values(c, Resource::velocity);
+            for (std::size_t i = 0; i < x.size(); ++i)
+                if (!finite(x[i]) || !finite(v[i])) {
+                    report.bad_cloth = c;
+                    report.bad_node = i;
+                    return;
+                }
+        }
+    }
+
+    std::span<const Vec3> values(std::size_t cloth, Resource resource)
+    {
+        ReadBack& read_back = read_backs.at(cloth);
+        std::vector<Vec3>& target = resource == Resource::position   ? read_back.positions
+                                    : resource == Resource::velocity ? read_back.velocities
+                                                                     : read_back.normals;
+        if (!target.empty()) return target;
+        if (resource == Resource::normal) update_drawing(cloth);
+        runner->read(static_cast<std::uint32_t>(cloth), resource, parity, scratch);
+        target.resize(scratch.size() / 3);
+        for (std::size_t i = 0; i < target.size(); ++i) target[i] = {scratch[3 * i], scratch[3 * i + 1], scratch[3 * i + 2]};
+        return target;
+    }
+
+    std::span<const float> strains(std::size_t cloth)
+    {
+        ReadBack& read_back = read_backs.at(cloth);
+        if (read_back.strains.empty()) {
+            update_drawing(cloth);
+            runner->read(static_cast<std::uint32_t>(cloth), Resource::strain, parity, read_back.strains);
+        }
+        return read_back.strains;
+    }
+
+    /// Normals and strains are computed only when someone looks.
+    void update_drawing(std::size_t cloth)
+    {
+        if (read_backs[cloth].drawing_is_current) return;
+        read_backs[cloth].drawing_is_current = true;
+        if (device_state) {
+            device_state->drawable(cloth);
+            return;
+        }
+        Program program{next_program_id++, {}, parity};
+        append_drawing(models[cloth], static_cast<std::uint32_t>(cloth), parity, program.calls);
+        runner->run(program, input(0));
+    }
+
+    template <class Count>
+    std::uint64_t total(Count count) const
+    {
+        std::uint64_t sum = 0;
+        for (const ClothModel& model : models) sum += (model.*count)();
+        return sum;
+    }
+
+    static constexpr std::uint64_t most_steps_at_once = 4096;
+    static constexpr std::size_t most_programs = 32;  ///< a host that varies its frames does not fill the memory
+
+    struct ReadBack {  // empty vectors: not read since the last frame
+        std::vector<Vec3> positions, velocities, normals;
+        std::vector<float> strains;
+        bool drawing_is_current = false;
+    };
+
+    Scene scene;
+    Backend backend;
+    std::vector<ClothModel> models;
+    std::unique_ptr<PassRunner> runner;
+    VulkanRunner* device_state = nullptr;
+    double stable_step = 0;
+    bool colliders_rest = true;
+    std::vector<PlacedCollider> placed;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Program> programs;  // by steps and parity
+    std::uint64_t next_program_id = 1;
+    std::uint32_t parity = 0;
+    std::vector<ReadBack> read_backs;
+    std::vector<float> scratch;
+    Report report;
+};
+
+Simulation::Simulation(const Scene& scene, const SimulationOptions& options)
+    : implementation_(std::make_unique<Implementation>(scene, options))
+{
+}
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+void Simulation::advance(double duration) noexcept
+{
+    Report& report = implementation_->report;
+    if (!report.finite || report.device_lost || !(duration > 0)) return;
+    try {
+        implementation_->advance(duration);
+    } catch (const std::exception&) {
+        report.device_lost = true;  // the device, or the memory for a program, is gone
+    }
+}
+
+double Simulation::time() const { return implementation_->report.simulated_seconds; }
+const Report& Simulation::report() const { return implementation_->report; }
+std::vector<PassTime> Simulation::pass_times() const { return implementation_->runner->pass_times(); }
+
+std::span<const Vec3> Simulation::positions(const ClothHandle& cloth) { return positions(cloth.index()); }
+std::span<const Vec3> Simulation::positions(std::size_t cloth)
+{
+    return implementation_->values(cloth, Resource::position);
+}
+std::span<const Vec3> Simulation::velocities(const ClothHandle& cloth) { return velocities(cloth.index()); }
+std::span<const Vec3> Simulation::velocities(std::size_t cloth)
+{
+    return implementation_->values(cloth, Resource::velocity);
+}
+std::span<const Vec3> Simulation::normals(std::size_t cloth) { return implementation_->values(cloth, Resource::normal); }
+std::span<const float> Simulation::strains(std::size_t cloth) { return implementation_->strains(cloth); }
+std::span<const Triangle> Simulation::triangles(std::size_t cloth) const
+{
+    return implementation_->models.at(cloth).triangles();
+}
+
+std::uint64_t Simulation::state_hash()
+{
+    StateHash hash;
+    for (std::size_t c = 0; c < implementation_->models.size(); ++c) hash.add(positions(c));
+    for (std::size_t c = 0; c < implementation_->models.size(); ++c) hash.add(velocities(c));
+    return hash.value();
+}
+
+const Scene& Simulation::scene() const { return implementation_->scene; }
+Backend Simulation::backend() const { return implementation_->backend; }
+std::string Simulation::device_name() const { return implementation_->runner->device_name(); }
+unsigned Simulation::thread_count() const { return implementation_->runner->thread_count(); }
+std::uint64_t Simulation::node_count() const
+{
+    std::uint64_t sum = 0;
+    for (const ClothModel& model : implementation_->models) sum += model.node_count();
+    return sum;
+}
+std::uint64_t Simulation::spring_count() const { return implementation_->total(&ClothModel::spring_count); }
+std::uint64_t Simulation::triangle_count() const { return implementation_->total(&ClothModel::triangle_count); }
+
+double Simulation::step_length() const { return implementation_->steps_of(1 / scene().time.frame_rate).second; }
+std::uint32_t Simulation::steps_per_frame() const
+{
+    return static_cast<std::uint32_t>(implementation_->steps_of(1 / scene().time.frame_rate).first);
+}
+double Simulation::stable_step() const { return implementation_->stable_step; }
+
+std::string Simulation::stability_warning() const
+{
+    const double step = step_length(), stable = stable_step();
+    if (step <= stable) return {};
+    const double frame = 1 / scene().time.frame_rate;
+    return "the step of " + seconds(step) + " exceeds the largest safe one of " + seconds(stable) +
+           " and the run may diverge: use at least " + std::to_string(static_cast<long long>(std::ceil(frame / stable))) +
+           " substeps per frame (time.substeps), softer springs or heavier nodes";
+}
+
+DeviceState* Simulation::device_state() { return implementation_->device_state; }
+
+std::vector<DeviceListing> list_devices()
+{
+    std::vector<DeviceListing> devices;
+    const auto mebibytes = [](std::uint64_t bytes) { return std::to_string(bytes >> 20) + " MiB"; };
+    for (const auto& device : vulkan::list_physical_devices())
+        devices.push_back({Backend::vulkan, device.index, device.name, device.kind,
+                           "Vulkan " + std::to_string(VK_API_VERSION_MAJOR(device.api_version)) + "." +
+                               std::to_string(VK_API_VERSION_MINOR(device.api_version)) + ", memory " +
+                               mebibytes(device.memory) + ", largest buffer " + mebibytes(device.max_buffer_range) +
+                               ", shared memory " + std::to_string(device.max_shared_memory >> 10) + " KiB"});
+    std::string sets;
+    for (const cpu::Kernels* kernels : cpu::available_kernels()) sets += (sets.empty() ? "" : ", ") + std::string(kernels->name);
+    devices.push_back({Backend::cpu, 0, "CPU", cpu::available_kernels().back()->name, "instruction sets " + sets});
+    devices.push_back({Backend::reference, 0, "CPU", "serial, double", "the oracle of the tests"});
+    return devices;
+}
+
+const char* name_of(Backend backend)
+{
+    switch (backend) {
+        case Backend::automatic: return "auto";
+        case Backend::cpu: return "cpu";
+        case Backend::vulkan: return "vulkan";
+        case Backend::reference: return "reference";
+    }
+    return "";
+}
+
+}  // namespace pliant

@@ -1,0 +1,41 @@
+# Installs a build of Pliant into an empty folder, then builds and runs the consumer with nothing but that.
+#   cmake -DBUILD=build/release -DSOURCE=tests/consumer -DCOMPILER=c++ -DBUILD_TYPE=Release [-DFLAGS=address,undefined]
+#         -P test.cmake
+# FLAGS are the sanitizers of the build, if any.
+cmake_minimum_required(VERSION 3.25)
+
+foreach(variable BUILD SOURCE COMPILER)
+    if(NOT DEFINED ${variable})
+        message(FATAL_ERROR "-D${variable}=... is missing")
+    endif()
+endforeach()
+
+set(work ${BUILD}/consumer)
+set(prefix ${work}/prefix)
+file(REMOVE_RECURSE ${work})
+
+function(step what)
+    execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output TIMEOUT 300)
+    if(NOT result EQUAL 0)
+        message(FATAL_ERROR "the consumer test cannot ${what} (${result}):\n${output}")
+    endif()
+    message(STATUS "${what}: good")
+endfunction()
+
+set(flags)
+if(FLAGS)
+    set(flags -DCMAKE_CXX_FLAGS=-fsanitize=${FLAGS})
+endif()
+
+step("install" ${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
+# No hint but the prefix: what the package needs must be found by the package itself.
+step("configure" ${CMAKE_COMMAND} -S ${SOURCE} -B ${work}/build -DCMAKE_PREFIX_PATH=${prefix}
+     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=${BUILD_TYPE} ${flags}
+     -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF)
+step("build" ${CMAKE_COMMAND} --build ${work}/build)
+step("run the consumer" ${work}/build/consumer)
+
+find_program(tool pliant PATHS ${prefix}/bin NO_DEFAULT_PATH)
+if(tool)
+    step("run the installed tool" ${CMAKE_COMMAND} -E chdir ${work} ${tool} check parity)
+endif()

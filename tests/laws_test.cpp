@@ -1,0 +1,388 @@
+// Laws against analytic references, against each other in double and float, and in SIMD bit by bit.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "backend/cpu/pack.hpp"
+#include "laws/laws.hpp"
+
+namespace pliant {
+namespace {
+
+using F = Laws<float>;
+using D = Laws<double>;
+using VF = Vector3<float>;
+using VD = Vector3<double>;
+
+constexpr double float_rounding = 0x1p-24;
+
+VD to_double(VF a) { return {a.x, a.y, a.z}; }
+double length(VD a) { return std::sqrt(a.x * a.x + a.y * a.y + a.z * a.z); }
+std::uint32_t bits(float a) { return std::bit_cast<std::uint32_t>(a); }
+
+class RandomVectors {
+public:
+    float number(float low, float high) { return std::uniform_real_distribution<float>(low, high)(engine_); }
+    VF vector(float size) { return {number(-size, size), number(-size, size), number(-size, size)}; }
+
+private:
+    std::mt19937 engine_{20261122};
+};
+
+// --- inverse square root ---------------------------------------------------------------------------------------------
+
+TEST(InverseSqrt, FloatErrorIsAtMost1_8e_7OverAllNormalNumbers)
+{
+    // All mantissas of the two binades that differ, since the error repeats every factor of four; then every exponent.
+    double worst = 0;
+    const auto look = [&](float a) {
+        const double exact = 1 / std::sqrt(static_cast<double>(a));
+        worst = std::max(worst, std::abs(F::inverse_sqrt(a) - exact) / exact);
+    };
+    for (std::uint32_t b = bits(1.0f); b < bits(4.0f); b += 3) look(std::bit_cast<float>(b));
+    for (std::uint32_t exponent = 1; exponent < 255; ++exponent)
+        for (std::uint32_t mantissa = 0; mantissa < 1u << 23; mantissa += 99991)
+            look(std::bit_cast<float>(exponent << 23 | mantissa));
+    EXPECT_LE(worst, 1.8e-7);
+}
+
+TEST(InverseSqrt, DoubleReachesRounding)
+{
+    std::mt19937_64 engine(1);
+    std::uniform_real_distribution<double> exponent(-300, 300);
+    for (int k = 0; k < 100000; ++k) {
+        const double a = std::exp2(exponent(engine)), exact = 1 / std::sqrt(a);
+        EXPECT_NEAR(D::inverse_sqrt(a) / exact, 1, 4 * std::numeric_limits<double>::epsilon());
+    }
+}
+
+TEST(InverseSqrt, NothingHasNoDirection)
+{
+    EXPECT_EQ(F::inverse_sqrt(0.0f) * 0.0f, 0.0f);
+    const VF n = F::direction({0, 0, 0});
+    EXPECT_EQ(n.x, 0);
+    EXPECT_EQ(n.y, 0);
+    EXPECT_EQ(n.z, 0);
+}
+
+// --- springs ----------------------------------------------------------------------------------------------------------
+
+TEST(Spring, PullsWithStiffnessTimesExtension)
+{
+    // 0.25 m longer than at rest, closing at 2 m/s: 100 * 0.25 - 3 * 2 towards the other node.
+    const VD f = D::spring_force({0, 0, 0}, {0, 1.25, 0}, {0, 1, 0}, {5, -1, 0}, 1.0, 100.0, 3.0);
+    EXPECT_NEAR(f.y, 25 - 6, 1e-12);
+    EXPECT_EQ(f.x, 0);
+    EXPECT_EQ(f.z, 0);
+}
+
+TEST(Spring, IsExactlyOppositeOnTheOtherNode)
+{
+    RandomVectors random;
+    for (int k = 0; k < 10000; ++k) {
+        const VF xi = random.vector(1), xj = random.vector(1), vi = random.vector(3), vj = random.vector(3);
+        const float l0 = random.number(0.01f, 1), s = random.number(0, 1e4f), c = random.number(0, 10);
+        const VF a = F::spring_force(xi, xj, vi, vj, l0, s, c), b = F::spring_force(xj, xi, vj, vi, l0, s, c);
+        EXPECT_EQ(bits(a.x), bits(-b.x));
+        EXPECT_EQ(bits(a.y), bits(-b.y));
+        EXPECT_EQ(bits(a.z), bits(-b.z));
+    }
+}
+
+TEST(Spring, PushesNowhereWhenNodesCoincide)
+{
+    const VF f = F::spring_force({1, 2, 3}, {1, 2, 3}, {0, 0, 0}, {1, 0, 0}, 0.5f, 1000, 1);
+    EXPECT_EQ(f.x, 0);
+    EXPECT_EQ(f.y, 0);
+    EXPECT_EQ(f.z, 0);
+}
+
+TEST(Spring, FloatFollowsDoubleToRounding)
+{
+    // Scaled error: about a dozen roundings, of positions as large as 1 m next to lengths of 0.1 m at least.
+    RandomVectors random;
+    for (int k = 0; k < 100000; ++k) {
+        const VF xi = random.vector(1), xj = random.vector(1), vi = random.vector(3), vj = random.vector(3);
+        const float l0 = random.number(0.1f, 1), s = random.number(0, 1e4f), c = random.number(0, 10);
+        const VD d = to_double(xj) - to_double(xi);
+        if (length(d) < 0.1) continue;
+        const VD exact = D::spring_force(to_double(xi), to_double(xj), to_double(vi), to_double(vj), l0, s, c);
+        const VF f = F::spring_force(xi, xj, vi, vj, l0, s, c);
+        const double scale = s * (length(d) + l0) + c * length(to_double(vj) - to_double(vi));
+        EXPECT_LE(length(to_double(f) - exact), 40 * float_rounding * scale);
+    }
+}
+
+TEST(Spring, StretchAndEnergy)
+{
+    EXPECT_NEAR(D::spring_stretch({0, 0, 0}, {3, 4, 0}, 4.0), 0.25, 1e-14);
+    EXPECT_NEAR(D::spring_energy({0, 0, 0}, {3, 4, 0}, 4.0, 100.0), 50, 1e-12);
+}
+
+// --- integration ------------------------------------------------------------------------------------------------------
+
+TEST(Integration, VelocityFirst)
+{
+    // f / m + g = 2 * 3 - 10 = -4; half of the velocity decays; x uses the new velocity.
+    const VD v = D::velocity_step({0, 8, 0}, {0, 3, 0}, 2.0, {0, -10, 0}, 0.5, 0.25);
+    EXPECT_EQ(v.y, 8 * 0.5 - 4 * 0.25);
+    EXPECT_EQ(D::position_step({0, 1, 0}, v, 0.25).y, 1 + 3 * 0.25);
+}
+
+TEST(Integration, PinnedNodeStays)
+{
+    const VD v = D::velocity_step({1, 2, 3}, {0, 3, 0}, 0.0, {0, -10, 0}, 1.0, 0.25);
+    EXPECT_EQ(length(v), 0);
+}
+
+// --- contact ----------------------------------------------------------------------------------------------------------
+
+D::Collider box(VD centre, VD half)
+{
+    D::Collider c{};
+    c.kind = 2;
+    c.centre = centre;
+    c.axis_x = {1, 0, 0};
+    c.axis_y = {0, 1, 0};
+    c.axis_z = {0, 0, 1};
+    c.half_size = half;
+    return c;
+}
+
+TEST(Gap, Sphere)
+{
+    const auto outside = D::gap_sphere({3, 4, 0}, {0, 0, 0}, 2.0);
+    EXPECT_NEAR(outside.w, 3, 1e-14);
+    EXPECT_NEAR(outside.x, 0.6, 1e-15);
+    EXPECT_NEAR(D::gap_sphere({0.5, 0, 0}, {0, 0, 0}, 2.0).w, -1.5, 1e-14);
+    const auto centre = D::gap_sphere({1, 1, 1}, {1, 1, 1}, 2.0);
+    EXPECT_NEAR(centre.w, -2, 1e-14);
+    EXPECT_NEAR(length({centre.x, centre.y, centre.z}), 1, 1e-14);
+}
+
+TEST(Gap, Plane)
+{
+    const auto gap = D::gap_plane({5, 3, 7}, {0, 1, 0}, {0, 1, 0});
+    EXPECT_EQ(gap.w, 2);
+}
+
+TEST(Gap, Capsule)
+{
+    EXPECT_NEAR(D::gap_capsule({1, 0.3, 0}, {0, 0, 0}, {0, 1, 0}, 0.5, 0.2).w, 0.8, 1e-14);   // beside
+    EXPECT_NEAR(D::gap_capsule({0, 2, 0}, {0, 0, 0}, {0, 1, 0}, 0.5, 0.2).w, 1.3, 1e-14);     // beyond the end
+    EXPECT_NEAR(D::gap_capsule({0, -0.6, 0}, {0, 0, 0}, {0, 1, 0}, 0.5, 0.2).w, -0.1, 1e-14); // within the lower cap
+}
+
+TEST(Gap, BoxFaceEdgeCornerAndInside)
+{
+    const auto c = box({1, 0, 0}, {1, 2, 3});
+    const auto face = D::collider_gap(c, {1, 5, 0});
+    EXPECT_NEAR(face.w, 3, 1e-14);
+    EXPECT_NEAR(face.y, 1, 1e-14);
+    const auto corner = D::collider_gap(c, {2 + 2, -2 - 1, 3 + 2});  // (2, -1, 2) from the corner
+    EXPECT_NEAR(corner.w, 3, 1e-14);
+    EXPECT_NEAR(corner.y, -1.0 / 3, 1e-14);
+    const auto inside = D::collider_gap(c, {0.25, 0.5, 0});  // 0.25 m from the face at x = 0
+    EXPECT_NEAR(inside.w, -0.25, 1e-14);
+    EXPECT_NEAR(inside.x, -1, 1e-14);
+}
+
+TEST(Gap, RotatedBox)
+{
+    auto c = box({0, 0, 0}, {1, 2, 3});
+    c.axis_x = {0, 1, 0};  // a quarter turn about z
+    c.axis_y = {-1, 0, 0};
+    EXPECT_NEAR(D::collider_gap(c, {0, 2.5, 0}).w, 1.5, 1e-14);
+    EXPECT_NEAR(D::collider_gap(c, {2.5, 0, 0}).w, 0.5, 1e-14);
+}
+
+TEST(Contact, RemovesTheApproachAndTakesFrictionFromTheRest)
+{
+    // Falling at 2 m/s while sliding at 3 m/s, mu = 0.5: sliding loses 0.5 * 2.
+    const VD v = D::contact_velocity({3, -2, 0}, {0, 0, 0}, {0, 1, 0}, 0.5);
+    EXPECT_NEAR(v.x, 2, 1e-14);
+    EXPECT_NEAR(v.y, 0, 1e-14);
+}
+
+TEST(Contact, SticksWhenFrictionSuffices)
+{
+    const VD v = D::contact_velocity({0.9, -2, 0}, {0, 0, 0}, {0, 1, 0}, 0.5);
+    EXPECT_NEAR(length(v), 0, 1e-14);
+}
+
+TEST(Contact, LeavesADepartingNodeAlone)
+{
+    const VD v = D::contact_velocity({3, 2, 1}, {0, 0, 0}, {0, 1, 0}, 0.5);
+    EXPECT_NEAR(length(v - VD{3, 2, 1}), 0, 1e-14);
+}
+
+TEST(Contact, MovesWithTheSurface)
+{
+    // A sphere spinning about y at 2 rad/s: its surface at x = 0.5 moves at -1 m/s along z.
+    D::Collider c{};
+    c.kind = 0;
+    c.radius = 0.5;
+    c.spin = {0, 2, 0};
+    c.velocity = {0, 0, 3};
+    EXPECT_NEAR(D::collider_surface_velocity(c, {0.5, 0, 0}).z, 2, 1e-14);
+    const VD stuck = D::contact_velocity({-1, 0, 2}, {0, 0, 2}, {1, 0, 0}, 10.0);
+    EXPECT_NEAR(length(stuck - VD{0, 0, 2}), 0, 1e-14);
+}
+
+TEST(Contact, StepPutsTheNodeOnTheSurfaceAndDoesNotLetItCreep)
+{
+    D::Collider plane{};
+    plane.kind = 1;
+    plane.axis_y = {0.6, 0.8, 0};  // tilted by less than friction holds
+    plane.friction = 2;
+    const double dt = 0.01, thickness = 0.125;
+    const VD at_rest = VD{0.6, 0.8, 0} * thickness;
+    D::Motion now{at_rest, {0, 0, 0}}, next;
+    next.velocity = {0, -10 * dt, 0};
+    next.position = now.position + next.velocity * dt;
+    const D::Motion after = D::contact_step(now, next, plane, thickness, 1.0, dt);
+    EXPECT_NEAR(length(after.position - at_rest), 0, 1e-15);
+    EXPECT_NEAR(length(after.velocity), 0, 1e-15);
+    const D::Motion pinned = D::contact_step(now, next, plane, thickness, 0.0, dt);
+    EXPECT_EQ(length(pinned.position - next.position), 0);
+}
+
+TEST(Contact, PaperResponseIsAlgorithm4AsPrinted)
+{
+    // 3 m/s of sliding with 1 m/s outward becomes |n + v / |v||: no units of velocity (see errata).
+    D::Collider sphere{};
+    sphere.kind = 0;
+    sphere.radius = 1;
+    sphere.response = 1;
+    D::Motion now{{0, 1.01, 0}, {3, 0, 0}}, next{{0, 0.99, 0}, {3, 0, 0}};
+    const D::Motion after = D::contact_step(now, next, sphere, 0.0, 1.0, 0.01);
+    EXPECT_NEAR(length(after.velocity), std::sqrt(2.0), 1e-14);
+    EXPECT_NEAR(after.position.y, 1, 1e-14);
+    next.velocity = {0, 0, 0};  // as printed a division by zero
+    EXPECT_NEAR(length(D::contact_step(now, next, sphere, 0.0, 1.0, 0.01).velocity - VD{0, 1, 0}), 0, 1e-14);
+}
+
+// --- air --------------------------------------------------------------------------------------------------------------
+
+TEST(Wind, OnAPlateHeadOnIsDragAlone)
+{
+    // Area 0.5 m2, 4 m/s head on: rho C_d A u^2 / 2 over the three corners; lift has no direction to go.
+    const VD zero{0, 0, 0};
+    const VD f = D::wind_force({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, zero, zero, zero, {0, 0, 4}, 1.2, 1.5, 0.7);
+    EXPECT_NEAR(3 * f.z, 0.5 * 1.2 * 1.5 * 0.5 * 16, 1e-6);  // a third is rounded to float in the law
+    EXPECT_NEAR(f.x, 0, 1e-14);
+}
+
+TEST(Wind, BothSidesFeelTheSame)
+{
+    const VD a{0, 0, 0}, b{1, 0, 0.3}, c{0, 1, 0.2}, v{0.1, 0.2, 0.3}, wind{3, -1, 4};
+    const VD f = D::wind_force(a, b, c, v, v, v, wind, 1.2, 1.5, 0.7);
+    const VD g = D::wind_force(a, c, b, v, v, v, wind, 1.2, 1.5, 0.7);
+    EXPECT_NEAR(length(f - g), 0, 1e-14 * length(f));
+}
+
+TEST(Wind, AlongAPlateDoesNothingAndMovingWithTheAirNeither)
+{
+    const VD zero{0, 0, 0}, wind{0, 0, 4};
+    EXPECT_NEAR(length(D::wind_force({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, zero, zero, zero, {4, 1, 0}, 1.2, 1, 1)), 0, 1e-14);
+    EXPECT_NEAR(length(D::wind_force({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, wind, wind, wind, wind, 1.2, 1, 1)), 0, 1e-6);
+}
+
+TEST(Wind, LiftIsAcrossTheWind)
+{
+    const VD zero{0, 0, 0}, u{3, 0, 4};
+    const VD lift = D::wind_force({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, zero, zero, zero, u, 1.2, 0, 1);
+    EXPECT_NEAR(D::dot3(lift, u), 0, 1e-12 * length(lift));
+    EXPECT_GT(length(lift), 0.1);
+}
+
+// --- normals and measures -----------------------------------------------------------------------------------------------
+
+TEST(Normal, QuadrantIsTheSumOfItsTwoTriangles)
+{
+    const VD n = D::quadrant_normal({0, 0, 0}, {0, 0, 2}, {3, 0, 2}, {3, 0, 0});  // z then x: up
+    EXPECT_EQ(n.x, 0);
+    EXPECT_EQ(n.y, 12);
+    EXPECT_EQ(n.z, 0);
+}
+
+TEST(Measure, CountsWhatIsNotFinite)
+{
+    const float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+    const VF good{1, 2, 3}, gravity{0, -1, 0};
+    EXPECT_EQ(F::measure_node(F::measure_of_nothing(), good, good, 1, gravity).non_finite, 0);
+    EXPECT_EQ(F::measure_node(F::measure_of_nothing(), {1, nan, 3}, good, 1, gravity).non_finite, 1);
+    EXPECT_EQ(F::measure_node(F::measure_of_nothing(), good, {inf, 0, 0}, 1, gravity).non_finite, 1);
+}
+
+TEST(Measure, NodeHasKineticEnergyAndHeight)
+{
+    const auto m = D::measure_node(D::measure_of_nothing(), {1, 2, 3}, {3, 4, 0}, 2.0, {0, -1, 0});
+    EXPECT_EQ(m.kinetic_energy, 25);
+    EXPECT_EQ(m.height_moment, 4);
+    EXPECT_EQ(m.max_speed2, 25);
+}
+
+// --- the same bits in SIMD ------------------------------------------------------------------------------------------------
+
+TEST(Simd, GivesTheBitsOfScalarFloat)
+{
+    // The baseline width; the wider ones are compared through whole passes in pass_test.
+    constexpr int W = 4;
+    using P = Pack<W>;
+    using S = Laws<P>;
+    RandomVectors random;
+    const auto lanes = [](const VF (&a)[W]) {
+        Vector3<P> r;
+        for (int k = 0; k < W; ++k) r.x.lanes[k] = a[k].x, r.y.lanes[k] = a[k].y, r.z.lanes[k] = a[k].z;
+        return r;
+    };
+    for (int round = 0; round < 5000; ++round) {
+        VF a[W], b[W], c[W], d[W];
+        for (int k = 0; k < W; ++k) a[k] = random.vector(1), b[k] = random.vector(1), c[k] = random.vector(2), d[k] = random.vector(2);
+        const float l0 = random.number(0.1f, 1), s = random.number(0, 1e4f), mu = random.number(0, 1);
+        const auto spring = S::spring_force(lanes(a), lanes(b), lanes(c), lanes(d), P(l0), P(s), P(mu));
+        const auto wind = S::wind_force(lanes(a), lanes(b), lanes(c), lanes(d), lanes(a), lanes(b), lanes(c), P(l0), P(s), P(mu));
+        S::Collider box_pack{};
+        F::Collider box_float{};
+        box_float.kind = 2;
+        box_float.centre = a[0];
+        box_float.axis_x = {0.6f, 0.8f, 0};
+        box_float.axis_y = {-0.8f, 0.6f, 0};
+        box_float.axis_z = {0, 0, 1};
+        box_float.half_size = {0.5f, 0.6f, 0.7f};
+        box_float.friction = mu;
+        const auto pack = [](VF v) { return Vector3<P>{P(v.x), P(v.y), P(v.z)}; };
+        box_pack.kind = 2;
+        box_pack.response = 0;
+        box_pack.centre = pack(a[0]);
+        box_pack.axis_x = pack(box_float.axis_x);
+        box_pack.axis_y = pack(box_float.axis_y);
+        box_pack.axis_z = pack(box_float.axis_z);
+        box_pack.half_size = pack(box_float.half_size);
+        box_pack.radius = P(0.0f);
+        box_pack.friction = P(mu);
+        box_pack.velocity = box_pack.spin = pack({0, 0, 0});
+        const auto motion = S::contact_step({lanes(a), lanes(c)}, {lanes(b), lanes(d)}, box_pack, P(0.01f), P(1.0f), P(0.01f));
+        for (int k = 0; k < W; ++k) {
+            const VF f = F::spring_force(a[k], b[k], c[k], d[k], l0, s, mu);
+            EXPECT_EQ(bits(spring.x.lanes[k]), bits(f.x));
+            EXPECT_EQ(bits(spring.y.lanes[k]), bits(f.y));
+            EXPECT_EQ(bits(spring.z.lanes[k]), bits(f.z));
+            const VF w = F::wind_force(a[k], b[k], c[k], d[k], a[k], b[k], c[k], l0, s, mu);
+            EXPECT_EQ(bits(wind.x.lanes[k]), bits(w.x));
+            EXPECT_EQ(bits(wind.z.lanes[k]), bits(w.z));
+            const auto m = F::contact_step({a[k], c[k]}, {b[k], d[k]}, box_float, 0.01f, 1.0f, 0.01f);
+            EXPECT_EQ(bits(motion.position.x.lanes[k]), bits(m.position.x));
+            EXPECT_EQ(bits(motion.position.y.lanes[k]), bits(m.position.y));
+            EXPECT_EQ(bits(motion.velocity.x.lanes[k]), bits(m.velocity.x));
+            EXPECT_EQ(bits(motion.velocity.z.lanes[k]), bits(m.velocity.z));
+        }
+    }
+}
+
+}  // namespace
+}  // namespace pliant

@@ -1,0 +1,703 @@
+// Pictures: what is seen on them, the files they become, and the errors on the way.
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <stb/stb_image.h>
+#include <sys/wait.h>
+
+#include "pliant/error.hpp"
+#include "pliant/scene.hpp"
+#include "render/image_file.hpp"
+#include "render/picture_recorder.hpp"
+#include "render/renderer.hpp"
+#include "render/video_file.hpp"
+
+namespace pliant {
+namespace {
+
+namespace fs = std::filesystem;
+
+// ----------------------------------------------------------------------------------------------------------
+// tools
+
+/// A folder that is gone after the test.
+class Folder {
+public:
+    Folder()
+    {
+        std::string name = (fs::temp_directory_path() / "pliant-render-XXXXXX").string();
+        path_ = ::mkdtemp(name.data());
+    }
+    ~Folder() { fs::remove_all(path_); }
+    fs::path operator/(const std::string& name) const { return path_ / name; }
+    std::vector<std::string> names() const
+    {
+        std::vector<std::string> result;
+        for (const auto& entry : fs::directory_iterator(path_))
+            result.push_back(entry.path().filename().string());
+        std::sort(result.begin(), result.end());
+        return result;
+    }
+
+private:
+    fs::path path_;
+};
+
+/// What an action throws: its kind and message.
+template <class Action>
+std::pair<int, std::string> error_of(Action&& action)
+{
+    try {
+        action();
+    } catch (const Error& error) {
+        return {static_cast<int>(error.kind), error.what()};
+    }
+    return {0, "nothing was thrown"};
+}
+
+#define EXPECT_ERROR(action, expected_kind, part)                                 \
+    do {                                                                          \
+        const auto [kind_, message_] = error_of([&] { action; });                 \
+        EXPECT_EQ(kind_, static_cast<int>(ErrorKind::expected_kind)) << message_; \
+        EXPECT_NE(message_.find(part), std::string::npos) << message_;            \
+    } while (false)
+
+Image gradient(std::uint32_t width, std::uint32_t height, int seed = 0)
+{
+    Image image{width, height, std::vector<std::uint8_t>(std::size_t{4} * width * height, 255)};
+    for (std::uint32_t y = 0; y < height; ++y)
+        for (std::uint32_t x = 0; x < width; ++x) {
+            std::uint8_t* pixel = &image.rgba[4 * (std::size_t{y} * width + x)];
+            pixel[0] = static_cast<std::uint8_t>(x * 7 + static_cast<unsigned>(seed));
+            pixel[1] = static_cast<std::uint8_t>(y * 5);
+            pixel[2] = static_cast<std::uint8_t>(x ^ y);
+        }
+    return image;
+}
+
+std::string output_of(const std::string& command)
+{
+    std::string text;
+    std::FILE* pipe = ::popen(command.c_str(), "r");
+    std::array<char, 256> line;
+    while (std::fgets(line.data(), static_cast<int>(line.size()), pipe)) text += line.data();
+    ::pclose(pipe);
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    return text;
+}
+
+/// "frames,width,height" of the video as a player would find it, decoded.
+std::string probe(const fs::path& video)
+{
+    return output_of(
+        "ffprobe -v error -count_frames -select_streams v:0 -show_entries "
+        "stream=width,height,nb_read_frames -of csv=p=0 '" +
+        video.string() + "'");
+}
+
+/// PATH as it was comes back at the end.
+class ProgramPath {
+public:
+    explicit ProgramPath(const std::string& path) : before_(std::getenv("PATH"))
+    {
+        ::setenv("PATH", path.c_str(), 1);
+    }
+    ~ProgramPath() { ::setenv("PATH", before_.c_str(), 1); }
+
+private:
+    std::string before_;
+};
+
+// ----------------------------------------------------------------------------------------------------- image
+// files
+
+TEST(ImageFile, comes_back_as_it_was)
+{
+    const Folder folder;
+    const auto file = folder / "picture.png";
+    const auto expect_round_trip = [&](const Image& image) {
+        write_png(file, image);
+        int width = 0, height = 0, channels = 0;
+        stbi_uc* read = stbi_load(file.c_str(), &width, &height, &channels, 4);
+        ASSERT_NE(read, nullptr);
+        EXPECT_EQ(width, static_cast<int>(image.width));
+        EXPECT_EQ(height, static_cast<int>(image.height));
+        EXPECT_TRUE(std::equal(image.rgba.begin(), image.rgba.end(), read));
+        stbi_image_free(read);
+    };
+    Image image = gradient(37, 21);
+    expect_round_trip(image);
+    image.rgba[7] = 12;  // no longer opaque
+    expect_round_trip(image);
+    expect_round_trip(gradient(1, 1));
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"picture.png"});
+}
+
+TEST(ImageFile, says_why_it_cannot_be_written_and_leaves_the_old_file)
+{
+    const Folder folder;
+    EXPECT_ERROR(write_png(folder / "none/picture.png", gradient(4, 4)), bad_input, "none");
+    EXPECT_ERROR(write_png(folder / "picture.png", Image{4, 4, {}}), bad_input, "no pixels");
+    write_png(folder / "picture.png", gradient(4, 4));
+    const auto size = fs::file_size(folder / "picture.png");
+    EXPECT_ERROR(write_png(folder / "picture.png", Image{0, 0, {}}), bad_input, "picture.png");
+    EXPECT_EQ(fs::file_size(folder / "picture.png"), size);
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"picture.png"});
+}
+
+// ----------------------------------------------------------------------------------------------------- video
+// files
+
+TEST(VideoFile, has_every_frame)
+{
+    const Folder folder;
+    VideoFile video(folder / "x.mp4", 64, 48, 30);
+    for (int i = 0; i < 17; ++i) video.add(gradient(64, 48, i));
+    EXPECT_FALSE(fs::exists(folder / "x.mp4"));  // not before it is complete
+    video.finish();
+    EXPECT_EQ(probe(folder / "x.mp4"), "64,48,17");
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"x.mp4"});
+    EXPECT_EQ(
+        output_of("ffprobe -v error -select_streams v:0 -show_entries stream=codec_name,pix_fmt,r_frame_rate "
+                  "-of csv=p=0 '" +
+                  (folder / "x.mp4").string() + "'"),
+        "h264,yuv420p,30/1");
+    EXPECT_ERROR(video.add(gradient(64, 48)), bad_usage, "finished");
+    EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1);  // no child is left, not even a dead one
+    EXPECT_EQ(errno, ECHILD);
+}
+
+TEST(VideoFile, keeps_the_colours_up_to_the_edge)
+{
+    const Folder folder;
+    Image red{33, 31, {}};
+    for (int i = 0; i < 33 * 31; ++i) red.rgba.insert(red.rgba.end(), {200, 40, 30, 255});
+    VideoFile video(folder / "x.mp4", red.width, red.height, 25);
+    for (int i = 0; i < 3; ++i) video.add(red);
+    video.finish();
+    ASSERT_EQ(output_of("ffmpeg -loglevel error -i '" + (folder / "x.mp4").string() + "' -frames:v 1 '" +
+                        (folder / "x.png").string() + "' 2>&1"),
+              "");
+    int width = 0, height = 0, channels = 0;
+    stbi_uc* read = stbi_load((folder / "x.png").c_str(), &width, &height, &channels, 4);
+    ASSERT_NE(read, nullptr);
+    for (const int index :
+         {16 * width + 16, 16 * width + width - 1, (height - 1) * width + 16, height * width - 1}) {
+        EXPECT_NEAR(read[4 * index], 200, 4);
+        EXPECT_NEAR(read[4 * index + 1], 40, 4);
+        EXPECT_NEAR(read[4 * index + 2], 30, 4);
+    }
+    stbi_image_free(read);
+}
+
+TEST(VideoFile, grows_odd_sizes_to_even_ones)
+{
+    const Folder folder;
+    VideoFile video(folder / "x.mp4", 33, 21, 25);
+    for (int i = 0; i < 3; ++i) video.add(gradient(33, 21, i));
+    video.finish();
+    EXPECT_EQ(probe(folder / "x.mp4"), "34,22,3");
+}
+
+TEST(VideoFile, is_playable_when_the_run_ends_early)
+{
+    const Folder folder;
+    try {
+        VideoFile video(folder / "x.mp4", 64, 48, 30);
+        for (int i = 0; i < 5; ++i) video.add(gradient(64, 48, i));
+        throw Error(ErrorKind::diverged, "the simulation diverged");
+    } catch (const Error&) {
+    }
+    EXPECT_EQ(probe(folder / "x.mp4"), "64,48,5");
+    {
+        const VideoFile empty(folder / "empty.mp4", 64, 48, 30);
+    }
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"x.mp4"});
+}
+
+TEST(VideoFile, replaces_an_older_file_through_a_link)
+{
+    const Folder folder;
+    std::ofstream(folder / "real.mp4") << "old";
+    fs::create_symlink("real.mp4", folder / "link.mp4");
+    VideoFile video(folder / "link.mp4", 16, 16, 30);
+    video.add(gradient(16, 16));
+    video.finish();
+    EXPECT_TRUE(fs::is_symlink(folder / "link.mp4"));
+    EXPECT_EQ(probe(folder / "real.mp4"), "16,16,1");
+}
+
+TEST(VideoFile, says_what_is_wrong)
+{
+    const Folder folder;
+    EXPECT_ERROR(VideoFile(folder / "none/x.mp4", 16, 16, 30), bad_input, "none");
+    {
+        VideoFile video(folder / "x.mp4", 16, 16, 30);
+        EXPECT_ERROR(video.add(gradient(16, 17)), bad_usage, "16 x 17");
+    }
+    {
+        const ProgramPath nothing((folder / "empty").string());
+        EXPECT_ERROR(VideoFile(folder / "x.mp4", 16, 16, 30), bad_input, "install the package ffmpeg");
+    }
+    EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(VideoFile, repeats_the_words_of_an_encoder_that_gives_up)
+{
+    const Folder folder;
+    fs::create_directory(folder / "bin");
+    std::ofstream(folder / "bin/ffmpeg") << "#!/bin/sh\necho 'no such encoder' >&2\nexit 1\n";
+    fs::permissions(folder / "bin/ffmpeg", fs::perms::owner_all);
+    const ProgramPath only((folder / "bin").string());
+    const auto record = [&] {  // more than fits between two processes, so that writing fails
+        VideoFile video(folder / "x.mp4", 512, 512, 30);
+        for (int i = 0; i < 10; ++i) video.add(gradient(512, 512));
+        video.finish();
+    };
+    EXPECT_ERROR(record(), bad_input, "no such encoder");
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"bin"});
+}
+
+// --------------------------------------------------------------------------------------------------------
+// recorder
+
+TEST(PictureRecorder, keeps_the_last_frame_in_a_still)
+{
+    const Folder folder;
+    PictureRecorder recorder(folder / "x.PNG", 60);
+    EXPECT_FALSE(recorder.wants(0, false));
+    EXPECT_TRUE(recorder.wants(9, true));
+    recorder.add(gradient(8, 8), 9);
+    recorder.finish();
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"x.PNG"});
+}
+
+TEST(PictureRecorder, numbers_a_sequence)
+{
+    const Folder folder;
+    for (const std::string name : {"a_%04d.png", "b_%d.png", "%02dc.png"}) {
+        PictureRecorder recorder(folder / name, 60);
+        EXPECT_TRUE(recorder.wants(0, false));
+        recorder.add(gradient(8, 8), 7);
+        recorder.add(gradient(8, 8), 12345);
+        recorder.finish();
+    }
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"07c.png", "12345c.png", "a_0007.png", "a_12345.png",
+                                                        "b_12345.png", "b_7.png"}));
+}
+
+TEST(PictureRecorder, writes_a_video)
+{
+    const Folder folder;
+    PictureRecorder recorder(folder / "x.mp4", 24);
+    EXPECT_TRUE(recorder.wants(0, false));
+    for (std::uint64_t i = 0; i < 4; ++i) recorder.add(gradient(32, 32, static_cast<int>(i)), i);
+    recorder.finish();
+    EXPECT_EQ(probe(folder / "x.mp4"), "32,32,4");
+}
+
+TEST(PictureRecorder, refuses_other_names)
+{
+    const Folder folder;
+    for (const std::string name :
+         {"x.gif", "x", "x.png.txt", "f_%04d.jpg", "f_%s.png", "f_%4d.png", "f_%0d.png", "f_%d_%d.png",
+          "f_%.png", "f_%%d.png", "f_%00d.png", ".png", "%d"})
+        for (const char* form : {"x.png", "frames_%04d.png", "x.mp4"})
+            EXPECT_ERROR(PictureRecorder(folder / name, 60), bad_usage, form);
+    EXPECT_ERROR(PictureRecorder(folder / "none/x.png", 60), bad_input, "none");
+    EXPECT_ERROR(PictureRecorder(folder / "none/x_%d.png", 60), bad_input, "none");
+    EXPECT_ERROR(PictureRecorder(folder / "none/x.mp4", 60), bad_input, "none");
+    EXPECT_TRUE(folder.names().empty());
+}
+
+// --------------------------------------------------------------------------------------------------------
+// pictures
+
+/// A sheet at a moment.
+struct Sheet {
+    std::uint32_t rows, columns;
+    std::vector<Vec3> positions, normals;
+    std::vector<float> strains;
+    std::vector<Triangle> triangles;
+
+    ClothTopology topology() const
+    {
+        return {triangles, static_cast<std::uint32_t>(positions.size()), rows, columns};
+    }
+    HostCloth host() const { return {positions, normals, strains}; }
+    Vec3d node(std::uint32_t row, std::uint32_t column) const
+    {
+        return to_double(positions[row * columns + column]);
+    }
+};
+
+/// One metre square at a height, sagging by `sag` along a parabola in x.
+Sheet make_sheet(std::uint32_t rows, std::uint32_t columns, double height, double sag = 0)
+{
+    Sheet sheet{rows, columns, {}, {}, {}, {}};
+    for (std::uint32_t i = 0; i < rows; ++i)
+        for (std::uint32_t j = 0; j < columns; ++j) {
+            const double x = double(j) / (columns - 1) - 0.5, z = double(i) / (rows - 1) - 0.5;
+            sheet.positions.push_back(to_float(Vec3d{x, height + sag * (4 * x * x - 1), z}));
+            sheet.normals.push_back(to_float(normalized(Vec3d{-8 * sag * x, 1, 0}, {0, 1, 0})));
+            sheet.strains.push_back(0);
+        }
+    for (std::uint32_t i = 0; i + 1 < rows; ++i)
+        for (std::uint32_t j = 0; j + 1 < columns; ++j) {
+            const std::uint32_t a = i * columns + j, b = a + 1, c = a + columns, d = c + 1;
+            sheet.triangles.push_back({a, c, b});
+            sheet.triangles.push_back({b, c, d});
+        }
+    return sheet;
+}
+
+Scene scene_for(const Sheet& sheet, double height)
+{
+    Scene scene;
+    auto cloth = scene.add(Cloth::sheet({.rows = sheet.rows, .columns = sheet.columns}));
+    cloth->position = {0, height, 0};
+    scene.add(Plane{});
+    scene.camera.width = 320;
+    scene.camera.height = 180;
+    return scene;
+}
+
+struct Pixel {
+    int r = 0, g = 0, b = 0;
+    int sum() const { return r + g + b; }
+    friend bool operator==(const Pixel&, const Pixel&) = default;
+};
+
+/// The pixel that shows a point of the world if nothing is in front of it.
+Pixel pixel_at(const Image& image, const Camera& camera, Vec3d point)
+{
+    const auto clip = clip_from_world(camera, double(image.width) / image.height) *
+                      std::array<double, 4>{point.x, point.y, point.z, 1};
+    const auto x = static_cast<long>(std::floor((clip[0] / clip[3] + 1) / 2 * image.width));
+    const auto y = static_cast<long>(std::floor((clip[1] / clip[3] + 1) / 2 * image.height));
+    EXPECT_TRUE(x >= 0 && y >= 0 && x < long(image.width) && y < long(image.height))
+        << "outside of the picture";
+    const std::uint8_t* pixel =
+        &image.rgba.at(4 * (static_cast<std::size_t>(y) * image.width + static_cast<std::size_t>(x)));
+    return {pixel[0], pixel[1], pixel[2]};
+}
+
+class Picture : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        if (vulkan::list_physical_devices().empty()) GTEST_SKIP() << "there is no Vulkan device";
+        static const auto shared =
+            std::make_shared<vulkan::Device>(vulkan::DeviceOptions{.validation = true});
+        device = shared;
+        if (!device->can_draw()) GTEST_SKIP() << "the device cannot draw";
+    }
+    void TearDown() override
+    {
+        if (device) {
+            EXPECT_EQ(device->validation_messages(), 0u);
+        }
+    }
+
+    Image draw(const Scene& scene, const Sheet& sheet, double time = 0)
+    {
+        const std::vector<ClothTopology> topologies{sheet.topology()};
+        const std::vector<ClothFrame> frames{sheet.host()};
+        return Renderer(device, scene, topologies).draw(time, frames);
+    }
+    /// The same scene, light and camera with no cloth to be seen.
+    Image draw_without_cloth(const Scene& scene, Sheet sheet)
+    {
+        sheet.triangles.clear();
+        return draw(scene, sheet);
+    }
+
+    std::shared_ptr<vulkan::Device> device;
+};
+
+TEST_F(Picture, shows_the_cloth_where_its_nodes_are)
+{
+    for (const double sag : {0.0, 0.3}) {
+        const Sheet sheet = make_sheet(17, 23, 0.5, sag);
+        Scene scene = scene_for(sheet, 0.5);
+        scene.camera.position = {0.8, 2.2, 2};  // no part of it is seen edge-on
+        const Image with = draw(scene, sheet), without = draw_without_cloth(scene, sheet);
+        ASSERT_EQ(with.rgba.size(), 4u * 320 * 180);
+        for (std::uint32_t row = 1; row + 1 < sheet.rows; ++row)
+            for (std::uint32_t column = 1; column + 1 < sheet.columns; ++column)
+                EXPECT_NE(pixel_at(with, scene.camera, sheet.node(row, column)),
+                          pixel_at(without, scene.camera, sheet.node(row, column)))
+                    << row << ", " << column;
+        // and not where they are not
+        std::size_t same = 0;
+        for (std::size_t i = 0; i < with.rgba.size(); i += 4) same += with.rgba[i] == without.rgba[i];
+        EXPECT_GT(same, with.rgba.size() / 4 / 2);
+    }
+}
+
+TEST_F(Picture, is_the_same_from_host_and_device_and_every_time)
+{
+    const Sheet sheet = make_sheet(33, 31, 0.6, 0.2);
+    const Scene scene = scene_for(sheet, 0.6);
+    const auto upload = [&](const auto& values, std::size_t floats, const char* name) {
+        std::vector<float> packed;
+        for (const auto& value : values) {
+            const auto* components = reinterpret_cast<const float*>(&value);
+            const std::size_t given = sizeof value / sizeof(float);
+            for (std::size_t i = 0; i < floats; ++i) packed.push_back(i < given ? components[i] : 7.0f);
+        }
+        auto buffer =
+            device->make_buffer(packed.size() * sizeof(float), vk::BufferUsageFlagBits::eStorageBuffer,
+                                vulkan::Memory::device, name);
+        device->write(buffer, packed.data(), packed.size() * sizeof(float));
+        return buffer;
+    };
+    const auto position = upload(sheet.positions, 4, "positions"),
+               normal = upload(sheet.normals, 4, "normals");
+    const auto strain = upload(sheet.strains, 1, "strains");
+    const std::vector<ClothTopology> topologies{sheet.topology()};
+    const std::vector<ClothFrame> on_host{sheet.host()};
+    const std::vector<ClothFrame> on_device{DeviceClothBuffers{*position, *normal, *strain, 33 * 31}};
+    Renderer renderer(device, scene, topologies);
+    const Image first = renderer.draw(0, on_device);
+    EXPECT_EQ(renderer.draw(0, on_host).rgba, first.rgba);
+    EXPECT_EQ(renderer.draw(0, on_device).rgba, first.rgba);
+    Image kept;
+    renderer.draw(0, on_host, kept);
+    const auto* memory = kept.rgba.data();
+    renderer.draw(0, on_host, kept);
+    EXPECT_EQ(kept.rgba, first.rgba);
+    EXPECT_EQ(kept.rgba.data(), memory);
+}
+
+TEST_F(Picture, has_any_size)
+{
+    const Sheet sheet = make_sheet(5, 4, 0.5);
+    Scene scene = scene_for(sheet, 0.5);
+    for (const auto& [width, height] : {std::pair{333u, 217u}, {1u, 1u}, {64u, 700u}}) {
+        scene.camera.width = width;
+        scene.camera.height = height;
+        const Image image = draw(scene, sheet);
+        EXPECT_EQ(image.width, width);
+        EXPECT_EQ(image.height, height);
+        ASSERT_EQ(image.rgba.size(), std::size_t{4} * width * height);
+        for (std::size_t i = 3; i < image.rgba.size(); i += 4) ASSERT_EQ(image.rgba[i], 255);
+    }
+}
+
+TEST_F(Picture, darkens_the_ground_in_the_shadow_of_the_cloth)
+{
+    const Sheet sheet = make_sheet(9, 9, 1.0);
+    Scene scene = scene_for(sheet, 1.0);
+    scene.camera.position = {0.6, 2.6, 3.6};
+    const Vec3d to_light = make_stage(scene).to_light;
+    const auto shadow_of = [&](Vec3d node) { return node - to_light * (node.y / to_light.y); };
+    const Image with = draw(scene, sheet), without = draw_without_cloth(scene, sheet);
+    int compared = 0;
+    for (std::uint32_t row = 1; row < 8; ++row)
+        for (std::uint32_t column = 1; column < 8; ++column) {
+            const Vec3d ground = shadow_of(sheet.node(row, column));
+            // Does the sheet, at height 1, stand between the ground and the camera?
+            const Vec3d eye = scene.camera.position, at_sheet = ground + (eye - ground) * (1.0 / eye.y);
+            if (std::max(std::abs(at_sheet.x), std::abs(at_sheet.z)) < 0.55) continue;
+            EXPECT_LT(pixel_at(with, scene.camera, ground).sum(),
+                      0.8 * pixel_at(without, scene.camera, ground).sum());
+            ++compared;
+        }
+    EXPECT_GE(compared, 10);
+    // A hand's breadth outside of the shadow nothing changes.
+    for (const Vec3d outside : {Vec3d{-0.65, 1, 0}, Vec3d{0.65, 1, 0}, Vec3d{0, 1, 0.65}})
+        EXPECT_EQ(pixel_at(with, scene.camera, shadow_of(outside)),
+                  pixel_at(without, scene.camera, shadow_of(outside)));
+}
+
+TEST_F(Picture, lets_shadows_fall_on_colliders_and_cloth)
+{
+    const Sheet sheet = make_sheet(9, 9, 1.2);
+    Scene scene = scene_for(sheet, 1.2);
+    scene.add(Sphere{.centre = {0, 0.4, 0}, .radius = 0.3});
+    scene.camera.position = {0, 0.6, 3.5};
+    const Stage stage = make_stage(scene);
+    const Vec3d lit_side = Vec3d{0, 0.4, 0} + normalized(stage.to_light + Vec3d{0, 0, 1}, {}) * 0.3;
+    const Vec3d at_sheet = lit_side + stage.to_light * ((1.2 - lit_side.y) / stage.to_light.y);
+    // The sheet, wherever it must be to stand in the light of the sphere.
+    Sheet above = sheet;
+    for (Vec3& node : above.positions)
+        node.x += static_cast<float>(at_sheet.x), node.z += static_cast<float>(at_sheet.z);
+    const Pixel shaded = pixel_at(draw(scene, above), scene.camera, lit_side);
+    const Pixel lit = pixel_at(draw_without_cloth(scene, above), scene.camera, lit_side);
+    EXPECT_GT(lit.sum(), 500);
+    EXPECT_LT(shaded.sum(), 0.8 * lit.sum());
+
+    // A box between the sun and the sheet.
+    Scene below = scene_for(sheet, 1.2);
+    below.camera.position = {0, 3.5, 2.5};
+    const Vec3d centre = sheet.node(4, 4), hidden = centre + stage.to_light * 1.0;
+    const Image open = draw(below, sheet);
+    below.add(Box{.centre = hidden, .size = {0.2, 0.2, 0.2}});
+    EXPECT_LT(pixel_at(draw(below, sheet), below.camera, centre).sum(),
+              0.8 * pixel_at(open, below.camera, centre).sum());
+}
+
+TEST_F(Picture, has_no_speckles_where_the_sun_is_free)
+{
+    // One colour from end to end: a speckle anywhere would be the surface shadowing itself.
+    Sheet sheet = make_sheet(33, 33, 0.5);
+    Scene scene = scene_for(sheet, 0.5);
+    scene.camera.colour = ClothColour::strain;
+    scene.camera.position = {0, 2.5, 0.8};
+    const Image image = draw(scene, sheet);
+    for (std::uint32_t row = 1; row < 32; ++row)
+        for (std::uint32_t column = 1; column < 31; ++column)
+            EXPECT_NEAR(pixel_at(image, scene.camera, sheet.node(row, column)).sum(),
+                        pixel_at(image, scene.camera, sheet.node(row, column + 1)).sum(), 8);
+}
+
+TEST_F(Picture, has_a_checker_with_two_sides)
+{
+    const Sheet sheet = make_sheet(65, 65, 0.8);  // four nodes a square
+    Scene scene = scene_for(sheet, 0.8);
+    scene.camera.target = {0, 0.8, 0};
+    scene.camera.position = {0, 3, 0.5};
+    const Image above = draw(scene, sheet);
+    const auto square = [&](const Image& image, std::uint32_t row, std::uint32_t column) {
+        return pixel_at(image, scene.camera, sheet.node(4 * row + 2, 4 * column + 2));
+    };
+    for (std::uint32_t i = 0; i < 15; ++i) {
+        EXPECT_GT(std::abs(square(above, 7, i).sum() - square(above, 7, i + 1).sum()), 150);
+        EXPECT_GT(std::abs(square(above, i, 7).sum() - square(above, i + 1, 7).sum()), 150);
+        EXPECT_NEAR(square(above, i, i).sum(), square(above, i + 1, i + 1).sum(), 40);
+    }
+    // The dark squares are blue in front and red behind.
+    const auto dark = [&](const Image& image) {
+        const Pixel a = square(image, 7, 7), b = square(image, 7, 8);
+        return a.sum() < b.sum() ? a : b;
+    };
+    EXPECT_GT(dark(above).b, dark(above).r + 20);
+    scene.camera.position = {0, 0.1, 1.5};
+    const Image below = draw(scene, sheet);
+    EXPECT_GT(dark(below).r, dark(below).b + 20);
+}
+
+TEST_F(Picture, shows_strain_as_colour)
+{
+    Sheet sheet = make_sheet(9, 9, 0.5);
+    Scene scene = scene_for(sheet, 0.5);
+    scene.camera.position = {0, 2.5, 0.8};
+    const auto middle = [&](float strain) {
+        std::fill(sheet.strains.begin(), sheet.strains.end(), strain);
+        return pixel_at(draw(scene, sheet), scene.camera, sheet.node(4, 4) + Vec3d{0.03, 0, 0.03});
+    };
+    EXPECT_EQ(middle(0.0f), middle(0.1f));  // the checker does not care
+    scene.camera.colour = ClothColour::strain;
+    const Pixel none = middle(0), half = middle(0.05f), full = middle(0.1f);
+    EXPECT_GT(none.b, none.g + 30);  // violet
+    EXPECT_TRUE(half.g > half.r + 30 && half.g > half.b)
+        << half.r << ' ' << half.g << ' ' << half.b;              // green
+    EXPECT_TRUE(full.r > full.b + 100 && full.g > full.b + 100);  // yellow
+    EXPECT_EQ(middle(0.5f), full);                                // beyond the range
+    EXPECT_EQ(middle(-0.5f), none);
+    sheet.strains.clear();  // none given
+    EXPECT_EQ(pixel_at(draw(scene, sheet), scene.camera, sheet.node(4, 4) + Vec3d{0.03, 0, 0.03}), none);
+}
+
+TEST_F(Picture, shows_colliders_where_they_are_at_the_time)
+{
+    const Sheet sheet = make_sheet(2, 2, 0.02);
+    const auto expect_moving = [&](Collider collider, Vec3d seen) {
+        Scene scene = scene_for(sheet, 0.02);
+        const Image empty = draw(scene, sheet);
+        std::visit(
+            [](auto& shape) {
+                shape.keyframes = {{0, {}, {}}, {1, {0, 0, -0.8}, {0, 45, 0}}};
+            },
+            collider);
+        scene.add(collider);
+        const Image at_start = draw(scene, sheet, 0), at_end = draw(scene, sheet, 1);
+        EXPECT_NE(pixel_at(at_start, scene.camera, seen), pixel_at(empty, scene.camera, seen));
+        EXPECT_NE(at_start.rgba, at_end.rgba);
+    };
+    expect_moving(Sphere{.centre = {0.3, 0.5, 0}, .radius = 0.2}, {0.3, 0.6, 0.1});
+    expect_moving(Box{.centre = {0.3, 0.5, 0}, .size = {0.3, 0.3, 0.3}}, {0.3, 0.5, 0.15});
+    expect_moving(Capsule{.start = {-0.4, 0.4, 0}, .end = {0.4, 0.6, 0}, .radius = 0.1}, {0.3, 0.6, 0.08});
+    expect_moving(Plane{.point = {0, 0.4, -0.3}, .normal = {0, 1, 1}}, {0, 0.4, -0.3});
+}
+
+TEST_F(Picture, covers_a_sphere_that_a_coarse_cloth_lies_on)
+{
+    // The middle of a cell of 0.1 m lies deeper than the sphere's surface; it must still hide the sphere.
+    Sheet sheet = make_sheet(11, 11, 0);
+    const Vec3d centre{0, 0.5, 0};
+    for (std::size_t i = 0; i < sheet.positions.size(); ++i) {
+        const Vec3 flat = sheet.positions[i];
+        const double x = 0.6 * flat.x, z = 0.6 * flat.z;
+        const Vec3d out = normalized(Vec3d{x, std::sqrt(0.25 - x * x - z * z), z}, {});
+        sheet.positions[i] = to_float(centre + out * 0.5005);
+        sheet.normals[i] = to_float(out);
+    }
+    Scene scene = scene_for(sheet, 1);
+    scene.camera.position = {0, 3, 1};
+    scene.camera.colour = ClothColour::strain;
+    scene.add(Sphere{.centre = centre, .radius = 0.5});
+    const Image image = draw(scene, sheet);
+    for (std::uint32_t row = 0; row < 10; ++row)
+        for (std::uint32_t column = 0; column < 10; ++column) {
+            const Vec3d cell = (sheet.node(row, column) + sheet.node(row + 1, column + 1)) * 0.5;
+            const Pixel pixel = pixel_at(image, scene.camera, cell);
+            EXPECT_GT(pixel.b, pixel.g + 20) << row << ", " << column;  // violet, and not porcelain
+        }
+}
+
+TEST_F(Picture, refuses_what_does_not_fit)
+{
+    const Sheet sheet = make_sheet(3, 3, 0.5);
+    Scene scene = scene_for(sheet, 0.5);
+    const std::vector<ClothTopology> topologies{sheet.topology()};
+    Renderer renderer(device, scene, topologies);
+    EXPECT_ERROR(renderer.draw(0, {}), bad_usage, "1 cloths, and 0");
+    const Sheet other = make_sheet(3, 4, 0.5);
+    const std::vector<ClothFrame> wrong{other.host()};
+    EXPECT_ERROR(renderer.draw(0, wrong), bad_usage, "9 nodes was given 12 positions");
+    const std::vector<ClothFrame> right{sheet.host()};
+    EXPECT_EQ(renderer.draw(0, right).width, 320u);  // and goes on afterwards
+
+    EXPECT_ERROR(Renderer(device, scene, {}), bad_usage, "it has 1, and 0");
+    const std::vector<Triangle> outside{{0, 1, 9}};
+    const std::vector<ClothTopology> torn{{outside, 9, 3, 3}}, short_of_nodes{{sheet.triangles, 9, 3, 4}};
+    EXPECT_ERROR(Renderer(device, scene, torn), bad_usage, "the node 9 of 9");
+    EXPECT_ERROR(Renderer(device, scene, short_of_nodes), bad_usage, "3 x 4");
+    EXPECT_ERROR(Renderer(nullptr, scene, topologies), bad_usage, "device");
+    scene.camera.width = 1u << 20;
+    EXPECT_ERROR(Renderer(device, scene, topologies), device_failure, "1048576 x 180");
+}
+
+TEST(PictureLife, leaves_nothing_behind)
+{
+    if (vulkan::list_physical_devices().empty()) GTEST_SKIP() << "there is no Vulkan device";
+    // The validation layer speaks up when a device is destroyed before all that was made of it.
+    testing::internal::CaptureStderr();
+    {
+        const auto device = std::make_shared<vulkan::Device>(vulkan::DeviceOptions{.validation = true});
+        const Sheet sheet = make_sheet(3, 3, 0.5);
+        Scene scene = scene_for(sheet, 0.5);
+        scene.camera.colour = ClothColour::strain;
+        const std::vector<ClothTopology> topologies{sheet.topology()};
+        const std::vector<ClothFrame> frames{sheet.host()};
+        for (int i = 0; i < 5; ++i) Renderer(device, scene, topologies).draw(0, frames);
+    }
+    const std::string said = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(said.find("validation"), std::string::npos) << said;
+}
+
+}  // namespace
+}  // namespace pliant

@@ -1,0 +1,604 @@
+// Scenes: the built-in ones, the builders, overrides, what is refused and in which words, and the schema.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <set>
+
+#include "pliant/scene.hpp"
+#include "scene/document.hpp"
+#include "scene/fields.hpp"
+
+namespace pliant {
+namespace {
+
+const std::filesystem::path root = PLIANT_SOURCE_DIR;
+
+/// A file for the length of a test.
+class TemporaryFile {
+public:
+    explicit TemporaryFile(const std::string& text, const std::string& ending = ".json")
+    {
+        static int count = 0;
+        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+        const std::string name =
+            std::string("pliant_") + test->name() + "_" + std::to_string(count++) + ending;
+        path = std::filesystem::temp_directory_path() / name;
+        std::ofstream(path, std::ios::binary) << text;
+    }
+    ~TemporaryFile() { std::filesystem::remove(path); }
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+    std::filesystem::path path;
+};
+
+Scene scene_of(const std::string& text) { return read_scene(TemporaryFile(text).path.string()); }
+
+template <class Action>
+Error error_of(Action action)
+{
+    try {
+        action();
+    } catch (const Error& error) {
+        return error;
+    }
+    return {ErrorKind::bad_usage, "no error"};
+}
+
+void expect_sentence(const std::string& message, const std::vector<std::string>& parts)
+{
+    for (const std::string& part : parts)
+        EXPECT_NE(message.find(part), std::string::npos) << part << "\nin: " << message;
+    for (const char c : message)
+        EXPECT_GE(static_cast<unsigned char>(c), 0x20) << "control character in: " << message;
+}
+
+Scene small_scene()
+{
+    Scene scene;
+    scene.add(Cloth::sheet({.rows = 5, .columns = 4}));
+    return scene;
+}
+
+// --- what is good
+// ------------------------------------------------------------------------------------------------
+
+TEST(Scene, EveryBuiltInSceneIsReadByNameAndFromItsFile)
+{
+    const auto listings = list_scenes();
+    EXPECT_GE(listings.size(), 11U);
+    for (const SceneListing& listing : listings) {
+        const Scene built_in = read_scene(listing.name);
+        EXPECT_EQ(built_in.name, listing.name);
+        EXPECT_EQ(built_in.description, listing.description);
+        EXPECT_FALSE(built_in.checks.empty()) << listing.name;
+        const Scene from_file = read_scene((root / listing.file).string());
+        EXPECT_EQ(from_file.name, listing.name);
+        EXPECT_EQ(from_file.cloth_count(), built_in.cloth_count());
+    }
+}
+
+TEST(Scene, FieldsArriveWhereTheyBelong)
+{
+    const Scene scene = read_scene("moving_sphere");
+    const Cloth& cloth = scene.cloth(0);
+    EXPECT_EQ(std::get<SheetOptions>(cloth.shape).rows, 24U);
+    EXPECT_EQ(cloth.density, 0.3);
+    EXPECT_EQ(cloth.position, (Vec3d{0, 0.5, 0}));
+    EXPECT_EQ(std::get<Edge>(cloth.pins.at(1)), Edge::right);
+    const auto& sphere = std::get<Sphere>(scene.colliders.at(0));
+    EXPECT_EQ(sphere.radius, 0.15);
+    EXPECT_EQ(sphere.keyframes.at(2).time, 2);
+    EXPECT_EQ(sphere.keyframes.at(2).rotation, (Vec3d{0, 90, 0}));
+    EXPECT_EQ(scene.gravity, (Vec3d{0, -9.81, 0}));
+}
+
+TEST(Scene, EveryKindOfPinAndColliderIsRead)
+{
+    const Scene scene = scene_of(R"({"pliant": 1, "cloths": [{"sheet": {"rows": 3, "columns": 3}, "pins": [
+        {"index": 8}, {"corner": "bottom_right"}, {"edge": "bottom"},
+        {"box": {"min": [0, 0, 0], "max": [1, 2, 3]}}]}],
+        "colliders": [{"plane": {}}, {"capsule": {"start": [0, 0, 0], "end": [0, 1, 0], "radius": 0.2}},
+        {"box": {"centre": [0, 0, 0], "size": [1, 2, 3], "response": "paper"}}]})");
+    const auto& pins = scene.cloth(0).pins;
+    EXPECT_EQ(std::get<std::uint32_t>(pins.at(0)), 8U);
+    EXPECT_EQ(std::get<Corner>(pins.at(1)), Corner::bottom_right);
+    EXPECT_EQ(std::get<Edge>(pins.at(2)), Edge::bottom);
+    EXPECT_EQ(std::get<Region>(pins.at(3)).max, (Vec3d{1, 2, 3}));
+    EXPECT_EQ(std::get<Plane>(scene.colliders.at(0)).normal, (Vec3d{0, 1, 0}));
+    EXPECT_EQ(std::get<Capsule>(scene.colliders.at(1)).radius, 0.2);
+    EXPECT_EQ(std::get<Box>(scene.colliders.at(2)).response, ContactResponse::paper);
+}
+
+TEST(Scene, DtSetsTheFrameRate)
+{
+    const Scene scene = scene_of(R"({"pliant": 1, "time": {"dt": 0.001, "substeps": 20},
+                                     "cloths": [{"sheet": {"rows": 2, "columns": 2}}]})");
+    EXPECT_DOUBLE_EQ(scene.time.frame_rate, 50);
+    EXPECT_EQ(scene.time.substeps, 20U);
+}
+
+TEST(Scene, MeshFilesAreRelativeToTheScene)
+{
+    const TemporaryFile mesh("v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n", ".obj");
+    const TemporaryFile scene(R"({"pliant": 1, "cloths": [{"mesh": {"file": ")" +
+                              mesh.path.filename().string() + R"(", "scale": 2}, "pins": [{"index": 2}]}]})");
+    const Scene read = read_scene(scene.path.string());
+    EXPECT_EQ(std::get<SurfaceMesh>(read.cloth(0).shape).triangles.size(), 1U);
+    EXPECT_EQ(read.cloth(0).scale, 2);
+    EXPECT_EQ(read.name, scene.path.stem().string());
+}
+
+TEST(Scene, OverridesChangeTheDocumentBeforeItIsRead)
+{
+    const Scene scene =
+        read_scene("cloth_sphere", {"time.duration=2", "cloths[0].springs.structural.stiffness=2000",
+                                    "cloths[0].sheet.rows=64", "air.density=1.2", "name=renamed",
+                                    "gravity[1]=-1.62", "cloths[0].density=null", "cloths[0].node_mass=1e-4",
+                                    "cloths[0].pins[0]={\"corner\": \"top_left\"}", "colliders[2].plane={}"});
+    EXPECT_EQ(scene.time.duration, 2);
+    EXPECT_EQ(scene.cloth(0).springs.structural.stiffness, 2000);
+    EXPECT_EQ(std::get<SheetOptions>(scene.cloth(0).shape).rows, 64U);
+    EXPECT_EQ(scene.air.density, 1.2);
+    EXPECT_EQ(scene.name, "renamed");
+    EXPECT_EQ(scene.gravity.y, -1.62);
+    EXPECT_FALSE(scene.cloth(0).density);
+    EXPECT_EQ(scene.cloth(0).node_mass, 1e-4);
+    EXPECT_EQ(scene.cloth(0).pins.size(), 1U);
+    EXPECT_EQ(scene.colliders.size(), 3U);
+}
+
+TEST(Scene, BuildersFillAScene)
+{
+    Scene scene;
+    auto cloth = scene.add(Cloth::sheet({.rows = 128, .columns = 64, .width = 2.0, .density = 0.4}));
+    cloth.pin(Corner::top_left).pin(Corner::top_right);
+    scene.add(Sphere{.centre = {0, 0.4, 0}, .radius = 0.3, .friction = 0.4});
+    auto second = scene.add(
+        Cloth::mesh({{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, {{0, 1, 2}}}, {.node_mass = 0.1, .scale = 3}));
+    cloth->name = "first";  // the handle survived a further add()
+    validate(scene);
+
+    EXPECT_EQ(second.index(), 1U);
+    EXPECT_EQ(scene.cloth(0).name, "first");
+    EXPECT_EQ(scene.cloth(0).density, 0.4);
+    EXPECT_EQ(scene.cloth(0).pins.size(), 2U);
+    EXPECT_EQ(scene.cloth(1).node_mass, 0.1);
+    EXPECT_EQ(scene.cloth(1).scale, 3);
+
+    Scene copy = scene;
+    copy.cloth_handle(0)->name = "copied";
+    EXPECT_EQ(scene.cloth(0).name, "first");
+    scene = copy;
+    EXPECT_EQ(scene.cloth(0).name, "copied");
+    EXPECT_EQ(scene.colliders.size(), 1U);
+}
+
+// --- what is refused
+// ---------------------------------------------------------------------------------------------
+
+struct Refusal {
+    std::string text;                // of a scene, or an override of a good one
+    std::vector<std::string> parts;  // of the message
+};
+
+/// A scene file with more keys for the scene and for its one cloth, each starting with a comma.
+std::string with(const std::string& scene_keys, const std::string& cloth_keys = "")
+{
+    return R"({"pliant": 1, "cloths": [{"sheet": {"rows": 5, "columns": 4})" + cloth_keys + "}]" +
+           scene_keys + "}";
+}
+std::string colliding(const std::string& collider) { return with(", \"colliders\": [" + collider + "]"); }
+
+TEST(Scene, WrongFilesAreExplained)
+{
+    const std::string mesh = R"({"pliant": 1, "cloths": [{"mesh": {"file": "no.obj"}}]})";
+    const Refusal refusals[] = {
+        // the file itself
+        {"", {"line 1, column 1", "unexpected end of input"}},
+        {"{\n  \"pliant\": 1,\n  \"cloths\" []\n}", {"line 3, column 12", "expected ':'"}},
+        {"{\"pliant\": 1} x", {"line 1, column 15"}},
+        {"{\"pliant\": 1,\n", {"line 2, column 1", "unexpected end of input"}},
+        {"{\"pliant\": 1 /* and so on", {"line 1", "comment"}},
+        {"{\"name\": \"\xff\"}", {"line 1", "UTF-8"}},
+        {std::string(100'000, '['), {"[0][0][0] is nested more than 32 levels deep"}},
+        {"[1, 2, 3]", {"the scene is an array of 3", "must be an object"}},
+        {"{}", {"pliant is missing", "\"pliant\": 1"}},
+        {R"({"pliant": 2})", {"pliant is 2", "must be 1"}},
+        {R"({"pliant": 1, "pliant": 1})", {"pliant is given twice"}},
+        {with("", R"(, "springs": {"shear": {"damping": 0, "damping": 1}})"),
+         {"cloths[0].springs.shear.damping is given twice"}},
+        {with(R"(, "time": {"duration": 1e999})"), {"time.duration is a number beyond 1.8e308"}},
+        // keys and types
+        {R"({"pliant": 1, "cloth": []})", {"cloth is unknown", "did you mean \"cloths\"?"}},
+        {R"({"pliant": 1})", {"cloths is empty", "at least one cloth"}},
+        {with(", \"gravitation\": 1"), {"gravitation is unknown"}},
+        {with(", \"new\\nline\": 1"), {"new?line is unknown", "allowed here: ", "gravity"}},
+        {with(R"(, "method": "xpbd")"), {"method is \"xpbd\"", "must be mass_spring"}},
+        {with(R"(, "name": 5)"), {"name is 5", "must be a string"}},
+        {with(R"(, "name": "../up")"), {"name is \"../up\"", "can name a file"}},
+        {with(R"(, "cloths ": 1)"), {"cloths  is unknown", "did you mean \"cloths\"?"}},
+        {R"({"pliant": 1, "cloths": {}})", {"cloths is an object", "must be an array"}},
+        {R"({"pliant": 1, "cloths": []})", {"cloths is empty"}},
+        {R"({"pliant": 1, "cloths": [7]})", {"cloths[0] is 7", "must be an object"}},
+        // time, gravity, air, camera, check
+        {with(R"(, "time": {"duration": 0})"), {"time.duration is 0 s", "above 0 and at most 1e6 s"}},
+        {with(R"(, "time": {"duration": "5 s"})"), {"time.duration is \"5 s\"", "a number above 0", " s"}},
+        {with(R"(, "time": {"framerate": 60})"),
+         {"time.framerate is unknown", "did you mean \"frame_rate\"?"}},
+        {with(R"(, "time": {"frame_rate": 0.5})"), {"time.frame_rate is 0.5 1/s", "between 1 and 10000 1/s"}},
+        {with(R"(, "time": {"substeps": 1.5})"),
+         {"time.substeps is 1.5 steps", "a whole number between 0 and 100000"}},
+        {with(R"(, "time": {"substeps": -1})"), {"time.substeps is -1 steps", "between 0 and 100000"}},
+        {with(R"(, "time": {"dt": 0.001})"), {"time.dt is given without substeps"}},
+        {with(R"(, "time": {"dt": 0.001, "substeps": 5, "frame_rate": 60})"),
+         {"time.dt is given beside frame_rate"}},
+        {with(R"(, "time": {"dt": 1e-9, "substeps": 5})"),
+         {"time.dt is 1e-9 s", "with 5 substeps", "between 1e-4 and 1 s"}},
+        {with(R"(, "gravity": -9.81)"), {"gravity is -9.81", "an array of 3 numbers in m/s2"}},
+        {with(R"(, "gravity": [0, -9.81])"), {"gravity is an array of 2", "an array of 3 numbers"}},
+        {with(R"(, "gravity": [0, "down", 0])"), {"gravity[1] is \"down\"", "m/s2"}},
+        {with(R"(, "air": {"density": -1.2})"), {"air.density is -1.2 kg/m3", "between 0 and 2000 kg/m3"}},
+        {with(R"(, "camera": {"width": 8193})"),
+         {"camera.width is 8193 pixels", "between 16 and 8192 pixels"}},
+        {with(R"(, "camera": {"color": "strain"})"), {"camera.color is unknown", "did you mean \"colour\"?"}},
+        {with(R"(, "camera": {"colour": "strian"})"),
+         {"camera.colour is \"strian\"", "did you mean \"strain\"?"}},
+        {with(R"(, "camera": {"field_of_view": 171})"),
+         {"camera.field_of_view is 171 degrees", "between 1 and 170"}},
+        {with(R"(, "camera": {"position": [0, 1, 0], "target": [0, 1, 0]})"),
+         {"camera.target is [0, 1, 0] m", "differ"}},
+        {with(R"(, "check": {"max_strech": [0, 1]})"),
+         {"check.max_strech is unknown", "did you mean \"max_stretch\"?"}},
+        {with(R"(, "check": {"max_stretch": 0.3})"),
+         {"check.max_stretch is 0.3", "an array of 2 numbers, [min, max]"}},
+        {with(R"(, "check": {"max_stretch": [1, 0]})"), {"check.max_stretch is [1, 0]", "in this order"}},
+        // cloths
+        {R"({"pliant": 1, "cloths": [{}]})", {"cloths[0] has none of sheet, mesh"}},
+        {R"({"pliant": 1, "cloths": [{"shet": {}}]})",
+         {"cloths[0].shet is unknown", "did you mean \"sheet\"?"}},
+        {with("", R"(, "mesh": {"file": "a.obj"})"), {"cloths[0].mesh is given beside sheet", "exactly one"}},
+        {R"({"pliant": 1, "cloths": [{"sheet": {"rows": 2}}]})", {"cloths[0].sheet.columns is missing"}},
+        {R"({"pliant": 1, "cloths": [{"sheet": {"rows": 1, "columns": 2}}]})",
+         {"cloths[0].sheet.rows is 1 nodes", "between 2"}},
+        {R"({"pliant": 1, "cloths": [{"sheet": {"rows": 1e30, "columns": 2}}]})",
+         {"cloths[0].sheet.rows is 1e30 nodes"}},
+        {R"({"pliant": 1, "cloths": [{"sheet": {"rows": 5000, "columns": 5000}}]})",
+         {"cloths[0] brings", "25000000", "at most 16777216 nodes"}},
+        {R"({"pliant": 1, "cloths": [{"sheet": {"rows": 2, "columns": 2, "width": 0}}]})",
+         {"cloths[0].sheet.width is 0 m", "above 0"}},
+        {mesh, {"cloths[0].mesh.file cannot be used: ", "no.obj"}},
+        {with("", R"(, "density": 1, "node_mass": 1)"), {"cloths[0].node_mass is given beside density"}},
+        {with("", R"(, "density": 0)"), {"cloths[0].density is 0 kg/m2", "above 0"}},
+        {with("", R"(, "springs": {"shear": {"stiffness": -5}})"),
+         {"cloths[0].springs.shear.stiffness is -5 N/m", "between 0 and 1e9 N/m"}},
+        {with("", R"(, "springs": {"bend": {"stifness": 5}})"),
+         {"cloths[0].springs.bend.stifness is unknown", "\"stiffness\"?"}},
+        {with("", R"(, "springs": {"structural": {"damping": 2e6}})"),
+         {"structural.damping is 2e6 N s/m", "1e6 N s/m"}},
+        {with("", R"(, "damping": true)"), {"cloths[0].damping is true", "between 0 and 1000 1/s"}},
+        {with("", R"(, "thickness": 1.5)"), {"cloths[0].thickness is 1.5 m", "between 0 and 1 m"}},
+        {with("", R"(, "position": [0, 2e6, 0])"), {"cloths[0].position[1] is 2e6 m", "1e6 m"}},
+        {with("", R"(, "formulation": "edge_centric")"),
+         {"formulation is \"edge_centric\"", "\"node_centric\"?"}},
+        {with("", R"(, "pins": [{"index": 20}])"), {"cloths[0].pins[0].index is 20", "0 to 19"}},
+        {with("", R"(, "pins": [{"index": -1}])"), {"cloths[0].pins[0].index is -1"}},
+        {with("", R"(, "pins": [{"corner": "topleft"}])"),
+         {"pins[0].corner is \"topleft\"", "\"top_left\"?"}},
+        {with("", R"(, "pins": [{"corner": "top_left", "edge": "top"}])"),
+         {"pins[0].edge is given beside corner"}},
+        {with("", R"(, "pins": [{}])"), {"cloths[0].pins[0] has none of index, corner, edge, box"}},
+        {with("", R"(, "pins": [{"box": {"min": [0, 0, 0]}}])"), {"cloths[0].pins[0].box.max is missing"}},
+        {with("", R"(, "pins": [{"box": {"min": [0, 1, 0], "max": [1, 0, 1]}}])"),
+         {"box.min is [0, 1, 0] m", "[1, 0, 1] m"}},
+        // colliders
+        {colliding(R"({"sphere": {"center": [0, 0, 0], "radius": 1}})"),
+         {"colliders[0].sphere.center is unknown", "\"centre\"?"}},
+        {colliding(R"({"sphere": {"centre": [0, 0, 0]}})"), {"colliders[0].sphere.radius is missing"}},
+        {colliding(R"({"sphere": {"centre": [0, 0, 0], "radius": -1}})"),
+         {"colliders[0].sphere.radius is -1 m", "above 0"}},
+        {colliding(R"({"torus": {}})"), {"colliders[0].torus is unknown", "sphere, plane, box, capsule"}},
+        {colliding(R"({"plane": {"normal": [0, 0, 0]}})"), {"colliders[0].plane.normal is [0, 0, 0]"}},
+        {colliding(R"({"plane": {"friction": 11}})"),
+         {"colliders[0].plane.friction is 11", "between 0 and 10"}},
+        {colliding(R"({"plane": {"response": "sticky"}})"),
+         {"plane.response is \"sticky\"", "coulomb, paper"}},
+        {colliding(R"({"plane": {"keyframes": [{"time": 1}, {"time": 1}]}})"),
+         {"keyframes[1].time is 1 s", "later"}},
+        {colliding(R"({"box": {"centre": [0, 0, 0], "size": [1, 0, 1]}})"),
+         {"colliders[0].box.size[1] is 0 m", "above 0"}},
+        {colliding(R"({"capsule": {"start": [0, 0, 0], "radius": 1}})"),
+         {"colliders[0].capsule.end is missing"}},
+    };
+    EXPECT_GE(std::size(refusals), 60U);
+    for (const Refusal& refusal : refusals) {
+        const TemporaryFile file(refusal.text);
+        const Error error = error_of([&] { read_scene(file.path.string()); });
+        EXPECT_EQ(error.kind, ErrorKind::bad_input) << error.what();
+        expect_sentence(error.what(), refusal.parts);
+        EXPECT_TRUE(std::string(error.what()).starts_with(file.path.string() + ": ")) << error.what();
+    }
+}
+
+TEST(Scene, WrongOverridesAreExplained)
+{
+    const Refusal malformed[] = {
+        {"time.duration", {"\"time.duration\"", "path=value", "time.duration=2"}},
+        {"=2", {"path=value"}},
+        {"time..duration=2", {"path=value"}},
+        {"cloths[x].damping=2", {"path=value"}},
+        {"cloths[0=2", {"path=value"}},
+        {"name=\xff", {"path=value"}},
+        {"cloths[7].damping=2", {"element 7 of cloths, which has 1"}},
+        {"name.first=2", {"leads into name, which is \"hanging\"", "an object"}},
+        {"time[0]=2", {"leads into time, which is an object", "an array"}},
+    };
+    for (const Refusal& refusal : malformed) {
+        const Error error = error_of([&] { read_scene("hanging", {refusal.text}); });
+        EXPECT_EQ(error.kind, ErrorKind::bad_usage) << error.what();
+        expect_sentence(error.what(), refusal.parts);
+    }
+    const Refusal wrong[] = {
+        {"time.duration=-2", {"override time.duration=-2: time.duration is -2 s"}},
+        {"time.durations=2", {"override time.durations=2: time.durations is unknown", "\"duration\"?"}},
+        {"air.wind=[1,0,0]", {"air.wind is unknown"}},
+        {"cloths[0].sheet.rows=many", {"cloths[0].sheet.rows is \"many\"", "whole number", "nodes"}},
+        {"cloths[0].node_mass=1", {"cloths[0].node_mass is given beside density"}},
+        {"colliders[0].ball.radius=1", {"override colliders[0].ball.radius=1: colliders[0].ball is unknown"}},
+    };
+    for (const Refusal& refusal : wrong) {
+        const Error error = error_of([&] { read_scene("hanging", {refusal.text}); });
+        EXPECT_EQ(error.kind, ErrorKind::bad_input) << error.what();
+        expect_sentence(error.what(), refusal.parts);
+    }
+    // A fault of a built-in scene itself, here with a part of it taken away, names its file.
+    expect_sentence(error_of([] { read_scene("hanging", {"cloths[0].sheet=null"}); }).what(),
+                    {"cloths[0] has none of"});
+    expect_sentence(error_of([] { read_scene("hanging", {"cloths=null"}); }).what(), {"cloths is empty"});
+}
+
+TEST(Scene, UnknownNamesAreExplained)
+{
+    expect_sentence(error_of([] { read_scene("cloth_sfere"); }).what(),
+                    {"\"cloth_sfere\"", "did you mean \"cloth_sphere\"?", "pliant list"});
+    expect_sentence(error_of([] { read_scene("nothing/flag.json"); }).what(),
+                    {"\"nothing/flag.json\"", "\"flag\"?"});
+    expect_sentence(error_of([] { read_scene("\n"); }).what(),
+                    {"no file and no built-in scene", "pliant list"});
+    expect_sentence(error_of([] { read_scene((root / "scenes").string()); }).what(), {"is a directory"});
+}
+
+TEST(Scene, ScenesMadeInCodeAreValidatedToo)
+{
+    const auto refused = [](auto spoil, const std::vector<std::string>& parts) {
+        Scene scene = small_scene();
+        spoil(scene);
+        const Error error = error_of([&] { validate(scene); });
+        EXPECT_EQ(error.kind, ErrorKind::bad_input);
+        expect_sentence(error.what(), parts);
+    };
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
+                     infinity = std::numeric_limits<double>::infinity();
+    const SurfaceMesh triangle = {{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, {{0, 1, 2}}};
+    EXPECT_NO_THROW(validate(small_scene()));
+    refused([](Scene& s) { s = Scene(); }, {"cloths is empty"});
+    refused([](Scene& s) { s.gravity.x = nan; }, {"gravity[0] is nan m/s2"});
+    refused([](Scene& s) { s.time.duration = infinity; }, {"time.duration is inf s"});
+    refused([](Scene& s) { s.name = ""; }, {"name is \"\""});
+    refused(
+        [](Scene& s) {
+            s.checks = {{"speed", 0, 1}};
+        },
+        {"check.speed is unknown", "allowed here: max_stretch"});
+    refused([](Scene& s) { s.cloth_handle(0)->shape = SheetOptions{.rows = 0}; },
+            {"cloths[0].sheet.rows is 0 nodes"});
+    refused([](Scene& s) { s.cloth_handle(0)->shape = SheetOptions{.density = 1}; },
+            {"cloths[0].sheet.density is set"});
+    refused([](Scene& s) { s.cloth_handle(0).pin(20U); }, {"cloths[0].pins[0].index is 20", "0 to 19"});
+    refused([](Scene& s) { s.cloth_handle(0).pin(static_cast<Corner>(9)); }, {"corner is no. 9", "top_left"});
+    refused([](Scene& s) { s.add(Sphere{.centre = {}, .radius = 0}); },
+            {"colliders[0].sphere.radius is 0 m"});
+    refused([&](Scene& s) { s.add(Cloth::mesh(triangle)).pin(Edge::top); },
+            {"cloths[1].pins[0].edge is on a mesh"});
+    refused([&](Scene& s) { s.add(Cloth::mesh(triangle))->formulation = Formulation::node_centric; },
+            {"cloths[1].formulation is node_centric", "mesh"});
+    refused([](Scene& s) { s.add(Cloth::mesh({})); }, {"cloths[1].mesh has no triangle"});
+    refused([](Scene& s) { s.add(Cloth::mesh({{{0, 0, 0}}, {{0, 1, 2}}})); }, {"vertex 1 in triangle 0"});
+    refused(
+        [&](Scene& s) {
+            s.add(Cloth::mesh({{{std::numeric_limits<float>::infinity(), 0, 0}}, {{0, 0, 0}}}));
+        },
+        {"not finite at vertex 0"});
+    refused(
+        [](Scene& s) {
+            for (int i = 0; i < 5; ++i) s.add(Cloth::sheet({.rows = 2048, .columns = 2048}));
+        },
+        {"cloths[4] brings the scene to 16777236 nodes"});
+}
+
+// --- the schema says the same as fields.hpp
+// ----------------------------------------------------------------------
+
+/// Visits the fields of a scene made of defaults beside the schema's description of it.
+class SchemaComparison {
+public:
+    using Json = scene_format::Json;
+    using Range = scene_format::Range;
+    using Names = scene_format::Names;
+    using Presence = scene_format::Presence;
+
+    SchemaComparison(const Json& whole, const Json& schema, std::string path)
+        : whole_(whole), schema_(resolved(schema)), path_(std::move(path))
+    {
+    }
+
+    void number(const char* key, double value, const Range& range, const char* unit, Presence presence = {})
+    {
+        compare_number(property(key, presence), "number", range);
+        compare_rest(key, value, unit, presence);
+    }
+    void number(const char* key, std::uint32_t value, const Range& range, const char* unit,
+                Presence presence = {})
+    {
+        compare_number(property(key, presence), "integer", range);
+        const bool has_default = std::string(key) != "index";
+        compare_rest(key, value, unit, has_default ? presence : scene_format::required);
+    }
+    void number(const char* key, const std::optional<double>&, const Range& range, const char* unit)
+    {
+        compare_number(property(key), "number", range);
+        compare_rest(key, nullptr, unit, scene_format::required);
+    }
+    void vector(const char* key, const Vec3d& value, const Range& range, const char* unit,
+                Presence presence = {})
+    {
+        const Json array = property(key, presence);
+        EXPECT_EQ(array.value("minItems", 0), 3) << path_ << key;
+        EXPECT_EQ(array.value("maxItems", 0), 3) << path_ << key;
+        compare_number(resolved(array.value("items", Json())), "number", range);
+        compare_rest(key, {value.x, value.y, value.z}, unit, presence);
+    }
+    template <class Enumeration>
+    void choice(const char* key, Enumeration value, Names names)
+    {
+        const Json allowed = property(key);
+        EXPECT_EQ(allowed.value("enum", Json()), Json(std::vector<std::string>(names.begin(), names.end())))
+            << path_ << key;
+        const std::string by_default = names[static_cast<std::size_t>(value)];
+        EXPECT_EQ(allowed.value("default", by_default), by_default) << path_ << key;
+    }
+    void text(const char* key, const std::string&)
+    {
+        EXPECT_EQ(property(key).value("type", ""), "string") << path_ << key;
+    }
+    void name(const char* key, const std::string& value) { text(key, value); }
+    void format_version(const char* key)
+    {
+        EXPECT_EQ(property(key, scene_format::required).value("const", 0), 1);
+        seen_.insert("$schema");
+    }
+    void step_length(const char* key, const TimeOptions&)
+    {
+        compare_number(property(key), "number", scene_format::above(0, 1));
+    }
+    void mesh_file(const char* key, const SurfaceMesh&) { property(key, scene_format::required); }
+    void checks(const char* key, const std::vector<Check>&)
+    {
+        nested(key, [](auto& inside) {
+            for (const char* check : scene_format::check_names) inside.property(check);
+        });
+    }
+
+    template <class Inside>
+    void nested(const char* key, Inside inside)
+    {
+        visit(property(key), std::string(key), inside);
+    }
+    template <class Thing>
+    void object(const char* key, const Thing& thing)
+    {
+        nested(key, [&](auto& inside) { scene_format::fields(inside, thing); });
+    }
+    template <class Thing>
+    void list(const char* key, const std::vector<Thing>&)
+    {
+        visit(property(key).value("items", Json()), std::string(key), [](auto& inside) {
+            const Thing thing{};
+            scene_format::fields(inside, thing);
+        });
+    }
+    void cloths(const char* key, const Scene&)
+    {
+        const auto inside = [](auto& at) {
+            const Cloth cloth;
+            scene_format::fields(at, cloth);
+        };
+        visit(property(key, scene_format::required).value("items", Json()), key, inside);
+    }
+    template <class Variant, class With, std::size_t i = 0>
+    void one_of(const Variant& variant, Names keys, With with_alternative)
+    {
+        seen_.insert(keys[i]);
+        const std::variant_alternative_t<i, Variant> alternative{};
+        with_alternative(keys[i], alternative);
+        if constexpr (i + 1 < std::variant_size_v<Variant>)
+            one_of<Variant, With, i + 1>(variant, keys, with_alternative);
+    }
+
+    void finish() const
+    {
+        EXPECT_EQ(schema_.value("additionalProperties", true), false) << path_;
+        const Json properties = schema_.value("properties", Json::object());
+        for (const auto& [key, value] : properties.items())
+            EXPECT_TRUE(seen_.contains(key)) << path_ << key << " is in the schema alone";
+    }
+
+private:
+    template <class Inside>
+    void visit(const Json& schema, const std::string& key, Inside inside)
+    {
+        SchemaComparison child(whole_, schema, path_ + key + ".");
+        inside(child);
+        child.finish();
+    }
+
+    /// The schema with what it refers to put in; what stands beside a reference has the last word.
+    Json resolved(Json schema) const
+    {
+        if (!schema.contains("$ref")) return schema;
+        Json target = whole_.at(Json::json_pointer(schema["$ref"].get<std::string>().substr(1)));
+        target.update(schema);
+        target.erase("$ref");
+        return target;
+    }
+    Json property(const char* key, Presence presence = {})
+    {
+        seen_.insert(key);
+        const Json properties = schema_.value("properties", Json::object());
+        EXPECT_TRUE(properties.contains(key)) << path_ << key << " is not in the schema";
+        const Json needed = schema_.value("required", Json::array());
+        const bool is_required = std::find(needed.begin(), needed.end(), key) != needed.end();
+        EXPECT_EQ(is_required, presence == scene_format::required) << path_ << key;
+        return properties.contains(key) ? resolved(properties[key]) : Json::object();
+    }
+    void compare_number(const Json& schema, const std::string& type, const Range& range) const
+    {
+        EXPECT_EQ(schema.value("type", ""), type) << path_;
+        EXPECT_EQ(schema.value(range.min_excluded ? "exclusiveMinimum" : "minimum", -1e300), range.min)
+            << path_ << schema;
+        EXPECT_EQ(schema.value("maximum", 1e300), range.max) << path_ << schema;
+    }
+    void compare_rest(const char* key, const Json& value, const std::string& unit, Presence presence)
+    {
+        const Json schema = property_text(key);
+        EXPECT_TRUE(schema.value("description", "").starts_with(unit))
+            << path_ << key << " should name " << unit;
+        if (presence == Presence::optional) {
+            EXPECT_EQ(schema.value("default", value), value) << path_ << key;
+        }
+    }
+    Json property_text(const char* key) const
+    {
+        const Json properties = schema_.value("properties", Json::object());
+        return properties.contains(key) ? resolved(properties[key]) : Json::object();
+    }
+
+    const Json& whole_;
+    Json schema_;
+    std::string path_;
+    std::set<std::string> seen_;
+};
+
+TEST(Scene, TheSchemaSaysTheSameAsTheReader)
+{
+    std::ifstream file(root / "scenes/scene.schema.json");
+    const auto schema = scene_format::Json::parse(file);
+    SchemaComparison comparison(schema, schema, "");
+    const Scene defaults;
+    scene_format::fields(comparison, defaults);
+    comparison.finish();
+}
+
+}  // namespace
+}  // namespace pliant

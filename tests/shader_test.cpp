@@ -1,0 +1,72 @@
+// What the promise of equal bits rests on in the shaders: no floating-point instruction may be contracted.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include "backend/vulkan/shader_code.hpp"
+#include "solve/pass.hpp"
+
+namespace pliant {
+namespace {
+
+constexpr std::uint32_t op_decorate = 71, no_contraction = 42;
+// OpFNegate is exact; the others round: FAdd, FSub, FMul, FDiv, VectorTimesScalar, Dot and matrix products.
+const std::set<std::uint32_t> rounding_operations = {129, 131, 133, 136, 142, 143, 144, 145, 146, 147, 148};
+const std::set<std::uint32_t> forbidden_operations = {136, 148};  // division and OpDot are not correctly rounded in Vulkan
+constexpr std::uint32_t op_extended_instruction = 12;
+
+template <class Function>
+void for_each_instruction(std::span<const std::uint32_t> code, Function&& f)
+{
+    for (std::size_t at = 5; at < code.size(); at += code[at] >> 16) f(code[at] & 0xffff, code.subspan(at, code[at] >> 16));
+}
+
+TEST(ComputeShaders, HaveNoInstructionThatMayBeContracted)
+{
+    for (std::uint32_t p = 0; p < all_passes().size(); ++p) {
+        const auto code = vulkan::compute_shader(static_cast<Pass>(p));
+        std::set<std::uint32_t> exact;
+        for_each_instruction(code, [&](std::uint32_t op, auto words) {
+            if (op == op_decorate && words[2] == no_contraction) exact.insert(words[1]);
+        });
+        int operations = 0;
+        for_each_instruction(code, [&](std::uint32_t op, auto words) {
+            if (rounding_operations.count(op) == 0) return;
+            ++operations;
+            EXPECT_TRUE(exact.count(words[2]) > 0) << all_passes()[p].name << ": operation " << op << " may be contracted";
+            EXPECT_TRUE(forbidden_operations.count(op) == 0) << all_passes()[p].name << ": operation " << op;
+        });
+        EXPECT_GT(operations, 0) << all_passes()[p].name;
+    }
+}
+
+TEST(ComputeShaders, UseNoBuiltInWhoseRoundingIsOpen)
+{
+    for (std::uint32_t p = 0; p < all_passes().size(); ++p)
+        for_each_instruction(vulkan::compute_shader(static_cast<Pass>(p)), [&](std::uint32_t op, auto words) {
+            EXPECT_NE(op, op_extended_instruction)
+                << all_passes()[p].name << ": extended instruction " << (words.size() > 4 ? words[4] : 0);
+        });
+}
+
+TEST(ComputeShaders, AreStillValidWithFloatControls)
+{
+    const auto folder = std::filesystem::temp_directory_path() / "pliant_shader_test";
+    std::filesystem::create_directories(folder);
+    for (std::uint32_t p = 0; p < all_passes().size(); ++p) {
+        const auto code = vulkan::with_float_controls(vulkan::compute_shader(static_cast<Pass>(p)), {true, true});
+        EXPECT_EQ(code.size(), vulkan::compute_shader(static_cast<Pass>(p)).size() + 12);
+        const std::string file = (folder / (std::string(all_passes()[p].name) + ".spv")).string();
+        std::ofstream(file, std::ios::binary)
+            .write(reinterpret_cast<const char*>(code.data()), static_cast<std::streamsize>(code.size() * 4));
+        EXPECT_EQ(std::system(("spirv-val --target-env vulkan1.2 " + file).c_str()), 0) << all_passes()[p].name;
+    }
+    std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace pliant
