@@ -38,7 +38,8 @@ TEST(Sheet, ListsExactlyTheSpringsItCounts)
         EXPECT_EQ(model.springs.size(), model.spring_count());
         EXPECT_EQ(model.neighbours.entries.size(), 2 * model.spring_count());
         for (std::size_t s = 1; s < model.springs.size(); ++s)
-            EXPECT_LT(std::pair(model.springs[s - 1].i, model.springs[s - 1].j), std::pair(model.springs[s].i, model.springs[s].j));
+            EXPECT_LT(std::pair(model.springs[s - 1].i, model.springs[s - 1].j),
+                      std::pair(model.springs[s].i, model.springs[s].j));
         for (const Spring& spring : model.springs) {
             const Vec3d d = to_double(model.positions[spring.i]) - to_double(model.positions[spring.j]);
             EXPECT_NEAR(std::sqrt(dot(d, d)), spring.rest_length, 1e-6);
@@ -48,7 +49,8 @@ TEST(Sheet, ListsExactlyTheSpringsItCounts)
 
 TEST(Sheet, SharesItsMass)
 {
-    const ClothModel model = model_of(Cloth::sheet({.rows = 7, .columns = 5, .width = 2, .height = 3, .density = 0.3}));
+    const ClothModel model =
+        model_of(Cloth::sheet({.rows = 7, .columns = 5, .width = 2, .height = 3, .density = 0.3}));
     EXPECT_NEAR(std::accumulate(model.masses.begin(), model.masses.end(), 0.0), 0.3 * 6, 1e-6);
     EXPECT_EQ(model.masses.front(), model.masses.back());
     EXPECT_NEAR(model_of(Cloth::sheet({.rows = 2, .columns = 2, .node_mass = 0.25})).masses[3], 0.25, 0);
@@ -61,7 +63,8 @@ TEST(Sheet, PinsCornersEdgesIndicesAndRegions)
     const ClothModel model = model_of(cloth);
     for (std::uint32_t r = 0; r < 4; ++r)
         for (std::uint32_t c = 0; c < 5; ++c)
-            EXPECT_EQ(model.inverse_masses[5 * r + c] == 0, (r == 3 && c == 4) || c == 0 || r == 0) << r << ", " << c;
+            EXPECT_EQ(model.inverse_masses[5 * r + c] == 0, (r == 3 && c == 4) || c == 0 || r == 0)
+                << r << ", " << c;
 }
 
 TEST(Sheet, RefusesAPinThatHoldsNothing)
@@ -94,7 +97,8 @@ TEST(Sheet, TrianglesCoverItFacingUp)
     ASSERT_EQ(model.triangles().size(), model.triangle_count());
     double area = 0;
     for (const Triangle& t : model.triangles()) {
-        const Vec3d a = to_double(model.positions[t[0]]), b = to_double(model.positions[t[1]]), c = to_double(model.positions[t[2]]);
+        const Vec3d a = to_double(model.positions[t[0]]), b = to_double(model.positions[t[1]]),
+                    c = to_double(model.positions[t[2]]);
         const Vec3d n = cross(b - a, c - a);
         EXPECT_GT(n.y, 0);
         area += 0.5 * n.y;
@@ -165,7 +169,8 @@ TEST(Motion, SpinIsTheDerivativeOfTheRotation)
 {
     const std::vector<Keyframe> keyframes = {{0, {}, {10, -20, 30}}, {2, {}, {100, 45, -60}}};
     constexpr double t = 0.7, h = 1e-5;
-    const RigidMotion now = motion_at(keyframes, t), before = motion_at(keyframes, t - h), after = motion_at(keyframes, t + h);
+    const RigidMotion now = motion_at(keyframes, t), before = motion_at(keyframes, t - h),
+                      after = motion_at(keyframes, t + h);
     for (std::size_t k = 0; k < 3; ++k) {
         const Vec3d moved = (after.rotation[k] - before.rotation[k]) * (0.5 / h);  // error of order h^2
         const Vec3d error = moved - cross(now.spin, now.rotation[k]);

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""What is compiled with wide instructions must stay where it is. Of the many equal copies of an inline function the
-linker keeps any one, so a function of the standard library, of Laws<float> or of a layout in kernels_avx512 could end
-up in the programs of machines that have no AVX-512. Looks at the symbols of these objects: every function that other
-files can see must be a template of the file's own Pack width.
+"""What is compiled with wide instructions must stay where it is. Of the many equal copies of an inline function
+the linker keeps any one, so a function of the standard library, of Laws<float> or of a layout in kernels_avx512
+could end up in programs that run on machines without AVX-512. Looks at the symbols of these objects: every
+function that other files can see must be a template of the file's own Pack width.
 
     kernel_symbols_test.py OBJECT...    objects of the library, also as one list with ';' in between
 """

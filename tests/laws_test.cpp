@@ -32,11 +32,13 @@ private:
     std::mt19937 engine_{20261122};
 };
 
-// --- inverse square root ---------------------------------------------------------------------------------------------
+// --- inverse square root
+// ---------------------------------------------------------------------------------------------
 
 TEST(InverseSqrt, FloatErrorIsAtMost1_8e_7OverAllNormalNumbers)
 {
-    // All mantissas of the two binades that differ, since the error repeats every factor of four; then every exponent.
+    // All mantissas of the two binades that differ, since the error repeats every factor of four; then every
+    // exponent.
     double worst = 0;
     const auto look = [&](float a) {
         const double exact = 1 / std::sqrt(static_cast<double>(a));
@@ -68,7 +70,8 @@ TEST(InverseSqrt, NothingHasNoDirection)
     EXPECT_EQ(n.z, 0);
 }
 
-// --- springs ----------------------------------------------------------------------------------------------------------
+// --- springs
+// ----------------------------------------------------------------------------------------------------------
 
 TEST(Spring, PullsWithStiffnessTimesExtension)
 {
@@ -109,7 +112,8 @@ TEST(Spring, FloatFollowsDoubleToRounding)
         const float l0 = random.number(0.1f, 1), s = random.number(0, 1e4f), c = random.number(0, 10);
         const VD d = to_double(xj) - to_double(xi);
         if (length(d) < 0.1) continue;
-        const VD exact = D::spring_force(to_double(xi), to_double(xj), to_double(vi), to_double(vj), l0, s, c);
+        const VD exact =
+            D::spring_force(to_double(xi), to_double(xj), to_double(vi), to_double(vj), l0, s, c);
         const VF f = F::spring_force(xi, xj, vi, vj, l0, s, c);
         const double scale = s * (length(d) + l0) + c * length(to_double(vj) - to_double(vi));
         EXPECT_LE(length(to_double(f) - exact), 40 * float_rounding * scale);
@@ -122,7 +126,8 @@ TEST(Spring, StretchAndEnergy)
     EXPECT_NEAR(D::spring_energy({0, 0, 0}, {3, 4, 0}, 4.0, 100.0), 50, 1e-12);
 }
 
-// --- integration ------------------------------------------------------------------------------------------------------
+// --- integration
+// ------------------------------------------------------------------------------------------------------
 
 TEST(Integration, VelocityFirst)
 {
@@ -138,7 +143,8 @@ TEST(Integration, PinnedNodeStays)
     EXPECT_EQ(length(v), 0);
 }
 
-// --- contact ----------------------------------------------------------------------------------------------------------
+// --- contact
+// ----------------------------------------------------------------------------------------------------------
 
 D::Collider box(VD centre, VD half)
 {
@@ -171,9 +177,10 @@ TEST(Gap, Plane)
 
 TEST(Gap, Capsule)
 {
-    EXPECT_NEAR(D::gap_capsule({1, 0.3, 0}, {0, 0, 0}, {0, 1, 0}, 0.5, 0.2).w, 0.8, 1e-14);   // beside
-    EXPECT_NEAR(D::gap_capsule({0, 2, 0}, {0, 0, 0}, {0, 1, 0}, 0.5, 0.2).w, 1.3, 1e-14);     // beyond the end
-    EXPECT_NEAR(D::gap_capsule({0, -0.6, 0}, {0, 0, 0}, {0, 1, 0}, 0.5, 0.2).w, -0.1, 1e-14); // within the lower cap
+    EXPECT_NEAR(D::gap_capsule({1, 0.3, 0}, {0, 0, 0}, {0, 1, 0}, 0.5, 0.2).w, 0.8, 1e-14);  // beside
+    EXPECT_NEAR(D::gap_capsule({0, 2, 0}, {0, 0, 0}, {0, 1, 0}, 0.5, 0.2).w, 1.3, 1e-14);    // beyond the end
+    EXPECT_NEAR(D::gap_capsule({0, -0.6, 0}, {0, 0, 0}, {0, 1, 0}, 0.5, 0.2).w, -0.1,
+                1e-14);  // within the lower cap
 }
 
 TEST(Gap, BoxFaceEdgeCornerAndInside)
@@ -265,7 +272,8 @@ TEST(Contact, PaperResponseIsAlgorithm4AsPrinted)
     EXPECT_NEAR(length(D::contact_step(now, next, sphere, 0.0, 1.0, 0.01).velocity - VD{0, 1, 0}), 0, 1e-14);
 }
 
-// --- air --------------------------------------------------------------------------------------------------------------
+// --- air
+// --------------------------------------------------------------------------------------------------------------
 
 TEST(Wind, OnAPlateHeadOnIsDragAlone)
 {
@@ -287,8 +295,11 @@ TEST(Wind, BothSidesFeelTheSame)
 TEST(Wind, AlongAPlateDoesNothingAndMovingWithTheAirNeither)
 {
     const VD zero{0, 0, 0}, wind{0, 0, 4};
-    EXPECT_NEAR(length(D::wind_force({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, zero, zero, zero, {4, 1, 0}, 1.2, 1, 1)), 0, 1e-14);
-    EXPECT_NEAR(length(D::wind_force({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, wind, wind, wind, wind, 1.2, 1, 1)), 0, 1e-6);
+    EXPECT_NEAR(
+        length(D::wind_force({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, zero, zero, zero, {4, 1, 0}, 1.2, 1, 1)), 0,
+        1e-14);
+    EXPECT_NEAR(length(D::wind_force({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, wind, wind, wind, wind, 1.2, 1, 1)), 0,
+                1e-6);
 }
 
 TEST(Wind, LiftIsAcrossTheWind)
@@ -299,7 +310,8 @@ TEST(Wind, LiftIsAcrossTheWind)
     EXPECT_GT(length(lift), 0.1);
 }
 
-// --- normals and measures -----------------------------------------------------------------------------------------------
+// --- normals and measures
+// -----------------------------------------------------------------------------------------------
 
 TEST(Normal, QuadrantIsTheSumOfItsTwoTriangles)
 {
@@ -326,7 +338,8 @@ TEST(Measure, NodeHasKineticEnergyAndHeight)
     EXPECT_EQ(m.max_speed2, 25);
 }
 
-// --- the same bits in SIMD ------------------------------------------------------------------------------------------------
+// --- the same bits in SIMD
+// ------------------------------------------------------------------------------------------------
 
 TEST(Simd, GivesTheBitsOfScalarFloat)
 {
@@ -335,17 +348,20 @@ TEST(Simd, GivesTheBitsOfScalarFloat)
     using P = Pack<W>;
     using S = Laws<P>;
     RandomVectors random;
-    const auto lanes = [](const VF (&a)[W]) {
+    const auto lanes = [](const VF(&a)[W]) {
         Vector3<P> r;
         for (int k = 0; k < W; ++k) r.x.lanes[k] = a[k].x, r.y.lanes[k] = a[k].y, r.z.lanes[k] = a[k].z;
         return r;
     };
     for (int round = 0; round < 5000; ++round) {
         VF a[W], b[W], c[W], d[W];
-        for (int k = 0; k < W; ++k) a[k] = random.vector(1), b[k] = random.vector(1), c[k] = random.vector(2), d[k] = random.vector(2);
+        for (int k = 0; k < W; ++k)
+            a[k] = random.vector(1), b[k] = random.vector(1), c[k] = random.vector(2),
+            d[k] = random.vector(2);
         const float l0 = random.number(0.1f, 1), s = random.number(0, 1e4f), mu = random.number(0, 1);
         const auto spring = S::spring_force(lanes(a), lanes(b), lanes(c), lanes(d), P(l0), P(s), P(mu));
-        const auto wind = S::wind_force(lanes(a), lanes(b), lanes(c), lanes(d), lanes(a), lanes(b), lanes(c), P(l0), P(s), P(mu));
+        const auto wind = S::wind_force(lanes(a), lanes(b), lanes(c), lanes(d), lanes(a), lanes(b), lanes(c),
+                                        P(l0), P(s), P(mu));
         S::Collider box_pack{};
         F::Collider box_float{};
         box_float.kind = 2;
@@ -366,7 +382,8 @@ TEST(Simd, GivesTheBitsOfScalarFloat)
         box_pack.radius = P(0.0f);
         box_pack.friction = P(mu);
         box_pack.velocity = box_pack.spin = pack({0, 0, 0});
-        const auto motion = S::contact_step({lanes(a), lanes(c)}, {lanes(b), lanes(d)}, box_pack, P(0.01f), P(1.0f), P(0.01f));
+        const auto motion = S::contact_step({lanes(a), lanes(c)}, {lanes(b), lanes(d)}, box_pack, P(0.01f),
+                                            P(1.0f), P(0.01f));
         for (int k = 0; k < W; ++k) {
             const VF f = F::spring_force(a[k], b[k], c[k], d[k], l0, s, mu);
             EXPECT_EQ(bits(spring.x.lanes[k]), bits(f.x));

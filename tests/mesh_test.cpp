@@ -17,7 +17,7 @@
 #include <random>
 #include <sstream>
 
-#include "mesh/atomic_file.hpp"
+#include "files/atomic_file.hpp"
 #include "pliant/error.hpp"
 #include "pliant/mesh.hpp"
 
@@ -433,8 +433,10 @@ TEST_F(MeshTest, files_that_cannot_be_read_or_written)
     const auto message = [&](const std::string& action, const std::string& name) {
         const fs::path file = folder / name;
         const std::string text = failure_of([&] {
-            if (action == "read") read_mesh(file);
-            else write_mesh(file, tetrahedron());
+            if (action == "read")
+                read_mesh(file);
+            else
+                write_mesh(file, tetrahedron());
         });
         EXPECT_TRUE(text.starts_with("cannot " + action + " '" + file.string() + "': ")) << text;
         return text.substr(std::min(text.size(), action.size() + file.string().size() + 12));

@@ -1,5 +1,6 @@
-// Every pass of the table on every backend, on odd sizes: cpu (each instruction set of this machine, 1, 2, 3 and 7
-// threads) and vulkan must agree bit by bit, and both must follow the double-precision reference to rounding.
+// Every pass of the table on every backend, on odd sizes: cpu (each instruction set of this machine, 1, 2, 3
+// and 7 threads) and vulkan must agree bit by bit, and both must follow the double-precision reference to
+// rounding.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -23,16 +24,17 @@ struct PassCase {
 };
 void PrintTo(const PassCase& c, std::ostream* out) { *out << c.name; }
 
-// 1, 2, 3, 31, 1023, ...: widths around the packs of 4, 8, 16 lanes, blocks of 256 and their trees of one to three levels.
+// 1, 2, 3, 31, 1023, ...: widths around the packs of 4, 8, 16 lanes, blocks of 256 and their trees of one to
+// three levels.
 const PassCase cases[] = {
-    {"sheet_2x2", 2, 2, false, false},      {"sheet_2x9", 2, 9, false, false},
+    {"sheet_2x2", 2, 2, false, false},       {"sheet_2x9", 2, 9, false, false},
     {"sheet_3x1023", 3, 1023, false, false}, {"sheet_31x33", 31, 33, false, false},
-    {"sheet_17x16", 17, 16, false, false},  {"sheet_257x129", 257, 129, false, false},
-    {"sheet_9x2", 9, 2, false, false},      {"sheet_300x301", 300, 301, false, false},
-    {"list_2x2", 2, 2, false, true},        {"list_2x9", 2, 9, false, true},
-    {"list_31x33", 31, 33, false, true},    {"list_257x129", 257, 129, false, true},
-    {"mesh_2x2", 2, 2, true, true},         {"mesh_3x5", 3, 5, true, true},
-    {"mesh_31x33", 31, 33, true, true},     {"mesh_3x341", 3, 341, true, true},
+    {"sheet_17x16", 17, 16, false, false},   {"sheet_257x129", 257, 129, false, false},
+    {"sheet_9x2", 9, 2, false, false},       {"sheet_300x301", 300, 301, false, false},
+    {"list_2x2", 2, 2, false, true},         {"list_2x9", 2, 9, false, true},
+    {"list_31x33", 31, 33, false, true},     {"list_257x129", 257, 129, false, true},
+    {"mesh_2x2", 2, 2, true, true},          {"mesh_3x5", 3, 5, true, true},
+    {"mesh_31x33", 31, 33, true, true},      {"mesh_3x341", 3, 341, true, true},
 };
 
 constexpr double dt = 1e-4;
@@ -51,7 +53,9 @@ Scene scene_of(const PassCase& c)
     scene.add(Sphere{.centre = {0.1, -0.2, 0.1}, .radius = 0.25, .friction = 0.3});
     scene.add(Plane{.point = {0, -0.03, 0}, .normal = {0.1, 1, 0}, .friction = 0.2});
     scene.add(Box{.centre = {-0.3, 0, 0.2}, .size = {0.2, 0.1, 0.3}, .rotation = {10, 20, 30}});
-    scene.add(Capsule{.start = {0.3, 0, -0.3}, .end = {0.2, 0.05, -0.1}, .radius = 0.05,
+    scene.add(Capsule{.start = {0.3, 0, -0.3},
+                      .end = {0.2, 0.05, -0.1},
+                      .radius = 0.05,
                       .keyframes = {{0, {0, 0, 0}, {0, 0, 0}}, {1, {0, 0.1, 0}, {0, 90, 0}}}});
     scene.add(Sphere{.centre = {0.35, 0, 0.3}, .radius = 0.06, .response = ContactResponse::paper});
     return scene;
@@ -82,24 +86,28 @@ std::map<Resource, std::vector<float>> results_of(PassRunner& runner, const Clot
     append_drawing(model, 0, program.parity_after, program.calls);
     runner.run(program, {dt, static_cast<std::uint32_t>(colliders.size()), colliders, true});
     std::map<Resource, std::vector<float>> results;
-    std::vector<Resource> computed = {Resource::position, Resource::velocity, Resource::normal, Resource::strain, Resource::measures};
+    std::vector<Resource> computed = {Resource::position, Resource::velocity, Resource::normal,
+                                      Resource::strain, Resource::measures};
     if (model.feels_air()) computed.push_back(Resource::external_force);
     if (!model.node_centric()) computed.push_back(Resource::spring_force);
-    for (const Resource resource : computed) runner.read(0, resource, program.parity_after, results[resource]);
+    for (const Resource resource : computed)
+        runner.read(0, resource, program.parity_after, results[resource]);
     return results;
 }
 
-void expect_same_bits(const std::map<Resource, std::vector<float>>& a, const std::map<Resource, std::vector<float>>& b,
-                      const std::string& who)
+void expect_same_bits(const std::map<Resource, std::vector<float>>& a,
+                      const std::map<Resource, std::vector<float>>& b, const std::string& who)
 {
     for (const auto& [resource, values] : a) {
         const auto& others = b.at(resource);
         ASSERT_EQ(values.size(), others.size()) << who;
         std::size_t differing = 0, first = 0;
         for (std::size_t i = 0; i < values.size(); ++i)
-            if (std::bit_cast<std::uint32_t>(values[i]) != std::bit_cast<std::uint32_t>(others[i]) && differing++ == 0) first = i;
-        EXPECT_EQ(differing, 0u) << who << ": resource " << static_cast<int>(resource) << " differs first at " << first
-                                 << ": " << values[first] << " and " << others[first];
+            if (std::bit_cast<std::uint32_t>(values[i]) != std::bit_cast<std::uint32_t>(others[i]) &&
+                differing++ == 0)
+                first = i;
+        EXPECT_EQ(differing, 0u) << who << ": resource " << static_cast<int>(resource) << " differs first at "
+                                 << first << ": " << values[first] << " and " << others[first];
     }
 }
 
@@ -130,9 +138,11 @@ TEST_P(PassParity, AllBackendsAgree)
     expect_same_bits(expected, results_of(*runner, model, colliders), "vulkan");
     EXPECT_EQ(runner->validation_messages(), 0u);
 
-    // The reference, to the rounding of some dozen operations; forces against the size of what cancels in them.
+    // The reference, to the rounding of some dozen operations; forces against the size of what cancels in
+    // them.
     const auto exact = results_of(*make_reference_runner({&model, 1}), model, colliders);
-    const double force_scale = 1000 * (0.2 + 2);  // k l + what shaking adds, N: more than any spring here carries
+    const double force_scale =
+        1000 * (0.2 + 2);  // k l + what shaking adds, N: more than any spring here carries
     double least_mass = 1e30;
     for (const float m : model.masses) least_mass = std::min<double>(least_mass, m);
     constexpr double rounding = 0x1p-24;
@@ -140,7 +150,8 @@ TEST_P(PassParity, AllBackendsAgree)
         const auto &a = expected.at(resource), &b = exact.at(resource);
         ASSERT_EQ(a.size(), b.size());
         double worst = 0;
-        for (std::size_t i = 0; i < a.size(); ++i) worst = std::max(worst, std::abs(static_cast<double>(a[i]) - b[i]));
+        for (std::size_t i = 0; i < a.size(); ++i)
+            worst = std::max(worst, std::abs(static_cast<double>(a[i]) - b[i]));
         EXPECT_LE(worst, tolerance) << "resource " << static_cast<int>(resource);
     };
     const double velocity_tolerance = 64 * rounding * (2 + force_scale * dt / least_mass);
@@ -148,8 +159,8 @@ TEST_P(PassParity, AllBackendsAgree)
     expect_near(Resource::position, velocity_tolerance * dt + 8 * rounding);
     expect_near(Resource::external_force, 64 * rounding);
     if (!model.node_centric()) expect_near(Resource::spring_force, 64 * rounding * force_scale);
-    // Normals come from sides that are differences of rounded positions; where a shaken sheet's triangles cancel they
-    // have no direction at all, so the bound is on the mean square.
+    // Normals come from sides that are differences of rounded positions; where a shaken sheet's triangles
+    // cancel they have no direction at all, so the bound is on the mean square.
     const auto &n = expected.at(Resource::normal), &m = exact.at(Resource::normal);
     double square = 0;
     for (std::size_t i = 0; i < n.size(); ++i) square += std::pow(static_cast<double>(n[i]) - m[i], 2);
@@ -187,7 +198,8 @@ TEST(Formulations, NodeCentricAndSpringListGiveTheSameBits)
         }
         ASSERT_EQ(positions[0].size(), positions[1].size());
         for (std::size_t i = 0; i < positions[0].size(); ++i)
-            ASSERT_EQ(std::bit_cast<std::uint32_t>(positions[0][i]), std::bit_cast<std::uint32_t>(positions[1][i]))
+            ASSERT_EQ(std::bit_cast<std::uint32_t>(positions[0][i]),
+                      std::bit_cast<std::uint32_t>(positions[1][i]))
                 << rows << " x " << columns << " at " << i;
     }
 }
@@ -210,8 +222,8 @@ TEST(MeasureTree, LevelsHoldEveryBlock)
 
 TEST(Denormals, NeverReachTheState)
 {
-    // Velocities and forces around the smallest normal float, 1.2e-38: the CPU flushes what is below, llvmpipe does
-    // not, and a GPU may do either.
+    // Velocities and forces around the smallest normal float, 1.2e-38: the CPU flushes what is below,
+    // llvmpipe does not, and a GPU may do either.
     Cloth cloth = Cloth::sheet({.rows = 5, .columns = 7, .width = 0.9, .height = 0.7, .node_mass = 1.0});
     cloth.springs = {{1e-32, 0}, {1e-33, 0}, {0, 0}};
     Scene scene;
@@ -221,7 +233,9 @@ TEST(Denormals, NeverReachTheState)
     for (std::size_t i = 0; i < model.velocities.size(); ++i)
         model.velocities[i] = {3e-39f, static_cast<float>(i) * 1e-38f, 1e-5f};
     const auto expected = results_of(*make_cpu_runner({&model, 1}, {}), model, {});
-    expect_same_bits(expected, results_of(*make_vulkan_runner({&model, 1}, test::on(Backend::vulkan)), model, {}), "vulkan");
+    expect_same_bits(expected,
+                     results_of(*make_vulkan_runner({&model, 1}, test::on(Backend::vulkan)), model, {}),
+                     "vulkan");
     EXPECT_EQ(expected.at(Resource::velocity)[0], 0.0f);
     EXPECT_NE(expected.at(Resource::velocity)[2], 0.0f);
 }

@@ -22,7 +22,10 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Physics, OnEveryBackend, testing::ValuesIn(all_backends),
                          [](const auto& backend) { return std::string(name_of(backend.param)); });
 
-TimeOptions steps(double frame_rate, std::uint32_t substeps) { return {.duration = 1, .frame_rate = frame_rate, .substeps = substeps}; }
+TimeOptions steps(double frame_rate, std::uint32_t substeps)
+{
+    return {.duration = 1, .frame_rate = frame_rate, .substeps = substeps};
+}
 
 TEST_P(OnEveryBackend, AFreeNodeFallsAsTheIntegratorSays)
 {
@@ -43,11 +46,13 @@ TEST_P(OnEveryBackend, AFreeNodeFallsAsTheIntegratorSays)
     for (const Vec3& v : simulation.velocities()) EXPECT_NEAR(v.y, speed, tolerance);
 }
 
-/// Period of a mass on a spring from the times at which it passes its rest length upwards, by linear interpolation.
+/// Period of a mass on a spring from the times at which it passes its rest length upwards, by linear
+/// interpolation.
 double measured_period(double dt, int periods)
 {
-    // A triangle whose node 0 is free and hangs on node 1 along x; node 2, pinned, is joined by a spring at a right
-    // angle with no stiffness of its own: two structural springs share one class, so node 2 is placed on the same line.
+    // A triangle whose node 0 is free and hangs on node 1 along x; node 2, pinned, is joined by a spring at a
+    // right angle with no stiffness of its own: two structural springs share one class, so node 2 is placed
+    // on the same line.
     constexpr double k = 50, m = 0.125;
     SurfaceMesh mesh{{{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}}, {{0, 1, 2}}};
     Cloth cloth = Cloth::mesh(mesh, {.node_mass = m});
@@ -124,8 +129,9 @@ TEST_P(OnEveryBackend, MomentumIsKeptWithoutGravity)
     Vec3d after;
     for (std::size_t i = 0; i < v.size(); i += 3) after = after + Vec3d{v[i], v[i + 1], v[i + 2]};
 
-    // Forces cancel bit by bit in pairs. What is left is rounding: each step rounds a velocity of about 1 m/s, at
-    // random, so 3,600 steps of 221 nodes walk sqrt(3,600 * 221) half ulps; on the reference only reading rounds.
+    // Forces cancel bit by bit in pairs. What is left is rounding: each step rounds a velocity of about 1
+    // m/s, at random, so 3,600 steps of 221 nodes walk sqrt(3,600 * 221) half ulps; on the reference only
+    // reading rounds.
     const double nodes = model.node_count(), half_ulp = 0x1p-24;
     const double tolerance = 4 * half_ulp * (exact() ? std::sqrt(nodes) : std::sqrt(steps_taken * nodes));
     EXPECT_NEAR(after.x, before.x, tolerance);
@@ -136,8 +142,9 @@ TEST_P(OnEveryBackend, MomentumIsKeptWithoutGravity)
 
 TEST_P(OnEveryBackend, AHangingChainStretchesByTheWeightBelow)
 {
-    // A ladder of two columns pinned at the top: each rung's two vertical springs carry the weight of the nodes below,
-    // l_r = l_0 (1 + ...), elongation of rung r: (R - r) m g / k per column. Shear and bend are off.
+    // A ladder of two columns pinned at the top: each rung's two vertical springs carry the weight of the
+    // nodes below, l_r = l_0 (1 + ...), elongation of rung r: (R - r) m g / k per column. Shear and bend are
+    // off.
     constexpr std::uint32_t rows = 9;
     constexpr double k = 40, m = 0.002, g = 9.81;
     Scene scene;
@@ -156,7 +163,8 @@ TEST_P(OnEveryBackend, AHangingChainStretchesByTheWeightBelow)
     for (std::uint32_t r = 1; r < rows; ++r) {
         expected += (rows - r) * m * g / k;
         elongation = x[0].y - x[2 * r].y - 0.1 * r;
-        // At rest the sum is exact; in float a step's change is lost below half an ulp of 1 m, times g / (k / m) / dt^2.
+        // At rest the sum is exact; in float a step's change is lost below half an ulp of 1 m, times g / (k /
+        // m) / dt^2.
         EXPECT_NEAR(elongation, expected, exact() ? 1e-6 : 2e-5) << r;
     }
     EXPECT_LT(simulation.report().measures.max_speed, 1e-3);
@@ -190,7 +198,9 @@ TEST_P(OnEveryBackend, AClothOnAnInclineRestsBelowTheFrictionAngleAndSlidesAbove
     EXPECT_NEAR(slide(GetParam(), angle, 1.01 * tangent), 0, 1e-5);
     // s = g (sin - mu cos) t^2 / 2, first order in dt: (t + dt) / t.
     const double mu = 0.8 * tangent;
-    const double expected = 0.5 * 9.81 * (std::sin(angle * std::numbers::pi / 180) - mu * std::cos(angle * std::numbers::pi / 180));
+    const double expected =
+        0.5 * 9.81 *
+        (std::sin(angle * std::numbers::pi / 180) - mu * std::cos(angle * std::numbers::pi / 180));
     EXPECT_NEAR(slide(GetParam(), angle, mu), expected, expected * (1.0 / 2400 + 1e-3));
     EXPECT_GT(slide(GetParam(), angle, 0.99 * tangent), 0.01);
 }
@@ -210,7 +220,9 @@ TEST(Energy, OfAnUndampedSheetHasNoTrend)
     SimulationOptions options;
     options.backend = Backend::reference;
     Simulation simulation(scene, options);
-    const auto energy = [&] { return simulation.report().measures.kinetic_energy + simulation.report().measures.elastic_energy; };
+    const auto energy = [&] {
+        return simulation.report().measures.kinetic_energy + simulation.report().measures.elastic_energy;
+    };
     const double start = energy();
     double first_half = 0, second_half = 0;
     for (int frame = 0; frame < 1200; ++frame) {
@@ -241,7 +253,8 @@ TEST(Order, OfPositionsIsOneInTheStep)
     const auto exact = run(1024), coarse = run(32), fine = run(64);
     double coarse_error = 0, fine_error = 0;
     for (std::size_t i = 0; i < exact.size(); ++i) {
-        const Vec3d a = to_double(coarse[i]) - to_double(exact[i]), b = to_double(fine[i]) - to_double(exact[i]);
+        const Vec3d a = to_double(coarse[i]) - to_double(exact[i]),
+                    b = to_double(fine[i]) - to_double(exact[i]);
         coarse_error += dot(a, a);
         fine_error += dot(b, b);
     }
@@ -286,7 +299,8 @@ TEST_P(OnEveryBackend, WindDrivesASheetToTheSpeedOfTheAir)
     double mean = 0;
     for (const Vec3& v : simulation.velocities()) mean += v.y / 54;
     const double rate = 1.2 * 0.8 / (2 * 0.3 * 0.8);  // rho C_d A / (2 M), 1/m
-    EXPECT_NEAR(mean, 2 - 2 / (1 + 2 * rate), 0.02);  // edges carry less area than mass, so the sheet bows a little
+    EXPECT_NEAR(mean, 2 - 2 / (1 + 2 * rate),
+                0.02);  // edges carry less area than mass, so the sheet bows a little
 }
 
 }  // namespace

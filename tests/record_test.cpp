@@ -12,6 +12,7 @@
 #include <unistd.h>
 #include <nlohmann/json.hpp>
 
+#include "files/numbered_name.hpp"
 #include "pliant/mesh.hpp"
 #include "pliant/simulation.hpp"
 #include "record/cache_file.hpp"

@@ -300,8 +300,9 @@ TEST(PictureRecorder, writes_a_video)
 {
     const Folder folder;
     PictureRecorder recorder(folder / "x.mp4", 24);
-    EXPECT_TRUE(recorder.wants(0, false));
-    for (std::uint64_t i = 0; i < 4; ++i) recorder.add(gradient(32, 32, static_cast<int>(i)), i);
+    EXPECT_FALSE(recorder.wants(0, false));  // the start: 4 frames are to last 4 frames
+    EXPECT_TRUE(recorder.wants(1, false));
+    for (std::uint64_t i = 1; i <= 4; ++i) recorder.add(gradient(32, 32, static_cast<int>(i)), i);
     recorder.finish();
     EXPECT_EQ(probe(folder / "x.mp4"), "32,32,4");
 }

@@ -16,13 +16,15 @@ namespace {
 constexpr std::uint32_t op_decorate = 71, no_contraction = 42;
 // OpFNegate is exact; the others round: FAdd, FSub, FMul, FDiv, VectorTimesScalar, Dot and matrix products.
 const std::set<std::uint32_t> rounding_operations = {129, 131, 133, 136, 142, 143, 144, 145, 146, 147, 148};
-const std::set<std::uint32_t> forbidden_operations = {136, 148};  // division and OpDot are not correctly rounded in Vulkan
+const std::set<std::uint32_t> forbidden_operations = {
+    136, 148};  // division and OpDot are not correctly rounded in Vulkan
 constexpr std::uint32_t op_extended_instruction = 12;
 
 template <class Function>
 void for_each_instruction(std::span<const std::uint32_t> code, Function&& f)
 {
-    for (std::size_t at = 5; at < code.size(); at += code[at] >> 16) f(code[at] & 0xffff, code.subspan(at, code[at] >> 16));
+    for (std::size_t at = 5; at < code.size(); at += code[at] >> 16)
+        f(code[at] & 0xffff, code.subspan(at, code[at] >> 16));
 }
 
 TEST(ComputeShaders, HaveNoInstructionThatMayBeContracted)
@@ -37,7 +39,8 @@ TEST(ComputeShaders, HaveNoInstructionThatMayBeContracted)
         for_each_instruction(code, [&](std::uint32_t op, auto words) {
             if (rounding_operations.count(op) == 0) return;
             ++operations;
-            EXPECT_TRUE(exact.count(words[2]) > 0) << all_passes()[p].name << ": operation " << op << " may be contracted";
+            EXPECT_TRUE(exact.count(words[2]) > 0)
+                << all_passes()[p].name << ": operation " << op << " may be contracted";
             EXPECT_TRUE(forbidden_operations.count(op) == 0) << all_passes()[p].name << ": operation " << op;
         });
         EXPECT_GT(operations, 0) << all_passes()[p].name;
@@ -58,12 +61,14 @@ TEST(ComputeShaders, AreStillValidWithFloatControls)
     const auto folder = std::filesystem::temp_directory_path() / "pliant_shader_test";
     std::filesystem::create_directories(folder);
     for (std::uint32_t p = 0; p < all_passes().size(); ++p) {
-        const auto code = vulkan::with_float_controls(vulkan::compute_shader(static_cast<Pass>(p)), {true, true});
+        const auto code =
+            vulkan::with_float_controls(vulkan::compute_shader(static_cast<Pass>(p)), {true, true});
         EXPECT_EQ(code.size(), vulkan::compute_shader(static_cast<Pass>(p)).size() + 12);
         const std::string file = (folder / (std::string(all_passes()[p].name) + ".spv")).string();
         std::ofstream(file, std::ios::binary)
             .write(reinterpret_cast<const char*>(code.data()), static_cast<std::streamsize>(code.size() * 4));
-        EXPECT_EQ(std::system(("spirv-val --target-env vulkan1.2 " + file).c_str()), 0) << all_passes()[p].name;
+        EXPECT_EQ(std::system(("spirv-val --target-env vulkan1.2 " + file).c_str()), 0)
+            << all_passes()[p].name;
     }
     std::filesystem::remove_all(folder);
 }

@@ -10,13 +10,14 @@ namespace pliant::test {
 
 inline Cloth flat_sheet(std::uint32_t rows, std::uint32_t columns, double width = 1, double height = 1)
 {
-    Cloth cloth = Cloth::sheet({.rows = rows, .columns = columns, .width = width, .height = height, .density = 0.3});
+    Cloth cloth =
+        Cloth::sheet({.rows = rows, .columns = columns, .width = width, .height = height, .density = 0.3});
     cloth.springs = {{1000, 0.02}, {500, 0.03}, {10, 0.004}};
     return cloth;
 }
 
-/// A triangulated patch with jittered vertices and diagonals at random; the vertices are numbered at random too, so
-/// that nothing in its order helps.
+/// A triangulated patch with jittered vertices and diagonals at random; the vertices are numbered at random
+/// too, so that nothing in its order helps.
 inline SurfaceMesh irregular_mesh(std::uint32_t rows, std::uint32_t columns, unsigned seed = 7)
 {
     std::mt19937 engine(seed);

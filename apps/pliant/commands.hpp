@@ -14,12 +14,12 @@ namespace pliant::tool {
 struct RunOptions {
     std::string scene;
     SimulationOptions simulation;
-    std::optional<std::uint64_t> frames;   ///< instead of the scene's duration
-    std::vector<std::string> overrides;    ///< path=value
+    std::optional<std::uint64_t> frames;  ///< instead of the scene's duration
+    std::vector<std::string> overrides;   ///< path=value
     std::string statistics_file, summary_file, cache_file;
     std::vector<std::string> picture_files;
-    std::string stills;                    ///< pattern for a few pictures over the run
-    bool check = false;                    ///< hold the run against the scene's own check
+    std::string stills;  ///< pattern for a few pictures over the run
+    bool check = false;  ///< hold the run against the scene's own check
     bool quiet = false;
 };
 

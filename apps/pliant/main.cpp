@@ -20,10 +20,11 @@ constexpr const char* exit_codes =
 void add_run(CLI::App& app, RunOptions& options)
 {
     CLI::App* run = app.add_subcommand("run", "Simulate a scene and keep what you ask for");
-    run->footer("Examples:\n"
-                "  pliant run cloth_sphere --render sphere.mp4\n"
-                "  pliant run hanging --set cloths[0].springs.structural.stiffness=5000 --stats hanging.csv\n"
-                "  pliant run my_scene.json --backend vulkan --cache cloth.pc2 --summary cloth.json\n");
+    run->footer(
+        "Examples:\n"
+        "  pliant run cloth_sphere --render sphere.mp4\n"
+        "  pliant run hanging --set cloths[0].springs.structural.stiffness=5000 --stats hanging.csv\n"
+        "  pliant run my_scene.json --backend vulkan --cache cloth.pc2 --summary cloth.json\n");
     run->add_option("scene", options.scene, "A scene file, or the name of a built-in scene (pliant list)")
         ->required()
         ->type_name("SCENE");
@@ -31,15 +32,23 @@ void add_run(CLI::App& app, RunOptions& options)
                                                             {"cpu", Backend::cpu},
                                                             {"vulkan", Backend::vulkan},
                                                             {"reference", Backend::reference}};
-    run->add_option("--backend", options.simulation.backend,
-                    "auto (a real GPU when there is one, else cpu), cpu, vulkan, or reference (serial, double)")
-        ->transform(CLI::CheckedTransformer(backends).description(""))
+    run->add_option_function<std::string>(
+           "--backend",
+           [&options](const std::string& name) {
+               const auto found = backends.find(name);
+               if (found == backends.end())
+                   throw CLI::ValidationError("--backend",
+                                              "'" + name + "' is none of auto, cpu, vulkan, reference");
+               options.simulation.backend = found->second;
+           },
+           "auto (a real GPU when there is one, else cpu), cpu, vulkan, or reference (serial, double)")
         ->type_name("auto|cpu|vulkan|reference");
     run->add_option("--device", options.simulation.device, "Vulkan device by its number in pliant info")
         ->check(CLI::Range(0, 1000))
         ->type_name("N");
-    run->add_option("--threads", options.simulation.threads,
-                    "Threads of the cpu backend; the result does not depend on it (default: one for each core)")
+    run->add_option(
+           "--threads", options.simulation.threads,
+           "Threads of the cpu backend; the result does not depend on it (default: one for each core)")
         ->check(CLI::Range(1, 1024))
         ->type_name("N");
     run->add_option("--instruction-set", options.simulation.instruction_set,
@@ -48,23 +57,40 @@ void add_run(CLI::App& app, RunOptions& options)
     run->add_option("--frames", options.frames, "Frames to simulate, instead of the scene's duration")
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
         ->type_name("N");
-    run->add_option("--set", options.overrides,
-                    "Change a value of the scene, as in time.duration=2 or cloths[0].density=0.2; may be repeated")
+    run->add_option(
+           "--set", options.overrides,
+           "Change a value of the scene, as in time.duration=2 or cloths[0].density=0.2; may be repeated")
         ->type_name("PATH=VALUE")
         ->allow_extra_args(false);
-    run->add_option("--stats", options.statistics_file, "Per-frame statistics, CSV")->type_name("F.csv");
-    run->add_option("--summary", options.summary_file, "Summary of the run, JSON")->type_name("F.json");
-    run->add_option("--cache", options.cache_file,
-                    "Positions of every frame: x.pc2 (Blender's point cache, with x.obj beside it), seq_%04d.ply or "
-                    "seq_%04d.obj")
+    const CLI::Validator file_name(
+        [](const std::string& name) {
+            return std::string(name.empty() ? "the name of the file is empty" : "");
+        },
+        "");
+    run->add_option("--stats", options.statistics_file, "Per-frame statistics, CSV")
+        ->type_name("F.csv")
+        ->check(file_name);
+    run->add_option("--summary", options.summary_file, "Summary of the run, JSON")
+        ->type_name("F.json")
+        ->check(file_name);
+    run->add_option(
+           "--cache", options.cache_file,
+           "Positions of every frame: x.pc2 (Blender's point cache, with x.obj beside it), seq_%04d.ply or "
+           "seq_%04d.obj")
+        ->check(file_name)
         ->type_name("F");
     run->add_option("--render", options.picture_files,
                     "Pictures: x.png (the last frame), frames_%04d.png or x.mp4; may be repeated")
         ->type_name("F")
         ->allow_extra_args(false);
-    run->add_option("--stills", options.stills, "Six pictures spread over the run")->type_name("still_%04d.png");
-    run->add_flag("--check", options.check, "Hold the run against the scene's own check; exit code 1 when it fails");
-    run->add_flag("--validation", options.simulation.validation, "Vulkan with its validation layer, for developers");
+    run->add_option("--stills", options.stills, "Six pictures spread over the run")
+        ->type_name("still_%04d.png")
+        ->check(file_name);
+    run->add_flag("--check", options.check,
+                  "Hold the run against the scene's own check; exit code 1 when it fails")
+        ->excludes("--frames");
+    run->add_flag("--validation", options.simulation.validation,
+                  "Vulkan with its validation layer, for developers");
     run->add_flag("--quiet", options.quiet, "Print nothing but warnings and errors");
 }
 
@@ -79,7 +105,8 @@ int dispatch(int argc, char** argv)
     add_run(app, run_options);
     app.add_subcommand("list", "The built-in scenes");
     app.add_subcommand("info", "Backends and devices of this machine, with their limits");
-    CLI::App* check = app.add_subcommand("check", "Tell what is in a scene or a mesh, and whether it is good");
+    CLI::App* check =
+        app.add_subcommand("check", "Tell what is in a scene or a mesh, and whether it is good");
     std::string check_target;
     std::vector<std::string> check_overrides;
     check->add_option("file", check_target, "A scene file, a built-in scene, or a mesh (.ply, .obj)")
@@ -94,7 +121,8 @@ int dispatch(int argc, char** argv)
     } catch (const CLI::Success& success) {
         return app.exit(success);  // --help, --version
     } catch (const CLI::ParseError& error) {
-        std::fprintf(stderr, "pliant: %s; see 'pliant --help'\n", error.what());
+        const bool running = app.got_subcommand("run");
+        std::fprintf(stderr, "pliant: %s; see 'pliant %s--help'\n", error.what(), running ? "run " : "");
         return static_cast<int>(ErrorKind::bad_usage);
     }
     if (app.got_subcommand("run")) return run_command(run_options);
@@ -108,7 +136,10 @@ int dispatch(int argc, char** argv)
 int main(int argc, char** argv)
 {
     try {
-        return dispatch(argc, argv);
+        const int code = dispatch(argc, argv);
+        if (std::fflush(stdout) == 0) return code;
+        std::fprintf(stderr, "pliant: the standard output could not be written\n");
+        return static_cast<int>(pliant::ErrorKind::bad_input);
     } catch (const pliant::Error& error) {
         std::fprintf(stderr, "pliant: %s\n", error.what());
         return static_cast<int>(error.kind);

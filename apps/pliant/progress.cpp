@@ -7,7 +7,10 @@
 namespace pliant::tool {
 
 Progress::Progress(std::uint64_t total, bool quiet)
-    : total_(total > 0 ? total : 1), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0), start_(Clock::now()),
+    : total_(total > 0 ? total : 1),
+      quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) != 0),
+      start_(Clock::now()),
       last_(start_)
 {
 }
@@ -24,8 +27,9 @@ void Progress::update(std::uint64_t done, const std::string& note)
     if (!terminal_) {
         if (done != total_ && percent / 10 <= tenths_said_) return;
         tenths_said_ = percent / 10;
-        std::fprintf(stderr, "%3u %%  frame %llu of %llu  %s\n", percent, static_cast<unsigned long long>(done),
-                     static_cast<unsigned long long>(total_), note.c_str());
+        std::fprintf(stderr, "%3u %%  frame %llu of %llu  %s\n", percent,
+                     static_cast<unsigned long long>(done), static_cast<unsigned long long>(total_),
+                     note.c_str());
         return;
     }
     constexpr std::chrono::milliseconds between(50);
@@ -35,7 +39,8 @@ void Progress::update(std::uint64_t done, const std::string& note)
     std::string bar(width, '.');
     bar.replace(0, width * done / total_, std::string(width * done / total_, '#'));
     std::fprintf(stderr, "\r[%s] %3u %%  frame %llu of %llu  %s  %.0f s left \033[K", bar.c_str(), percent,
-                 static_cast<unsigned long long>(done), static_cast<unsigned long long>(total_), note.c_str(), left);
+                 static_cast<unsigned long long>(done), static_cast<unsigned long long>(total_), note.c_str(),
+                 left);
     std::fflush(stderr);
     shown_ = true;
 }

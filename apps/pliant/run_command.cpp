@@ -4,10 +4,13 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 
 #include "backend/vulkan/device_state.hpp"
 #include "commands.hpp"
+#include "files/atomic_file.hpp"
+#include "files/numbered_name.hpp"
 #include "progress.hpp"
 #include "record/cache_file.hpp"
 #include "record/run_record.hpp"
@@ -19,20 +22,32 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start)
+{
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
-volatile std::sig_atomic_t interrupted = 0;
+volatile std::sig_atomic_t interrupted = 0;  // the signal's number
 
-/// While it lives, Ctrl-C ends the run after the current frame, with everything written so far complete.
+/// While it lives, Ctrl-C and the like end the run after the current frame, with everything written so far
+/// complete.
 class InterruptGuard {
 public:
-    InterruptGuard() : before_(std::signal(SIGINT, [](int) { interrupted = 1; })) {}
-    ~InterruptGuard() { std::signal(SIGINT, before_); }
+    InterruptGuard()
+    {
+        for (std::size_t k = 0; k < std::size(signals); ++k)
+            before_[k] = std::signal(signals[k], [](int number) { interrupted = number; });
+    }
+    ~InterruptGuard()
+    {
+        for (std::size_t k = 0; k < std::size(signals); ++k) std::signal(signals[k], before_[k]);
+    }
     InterruptGuard(const InterruptGuard&) = delete;
     InterruptGuard& operator=(const InterruptGuard&) = delete;
 
 private:
-    void (*before_)(int);
+    static constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP};
+    void (*before_[std::size(signals)])(int);
 };
 
 std::string formatted(const char* format, double value)
@@ -45,21 +60,48 @@ std::string formatted(const char* format, double value)
 std::string with_commas(std::uint64_t n)
 {
     std::string text = std::to_string(n);
-    for (auto at = static_cast<std::ptrdiff_t>(text.size()) - 3; at > 0; at -= 3) text.insert(static_cast<std::size_t>(at), ",");
+    for (auto at = static_cast<std::ptrdiff_t>(text.size()) - 3; at > 0; at -= 3)
+        text.insert(static_cast<std::size_t>(at), ",");
     return text;
 }
 
-/// Draws a simulation for the recorders that want pictures; frames stay on the device when the simulation is there.
+/// What can be known of the names of files before the run: none is meant twice, and the summary can be
+/// written.
+void check_outputs(const RunOptions& options)
+{
+    std::vector<std::pair<const char*, std::string>> files = {{"--stats", options.statistics_file},
+                                                              {"--summary", options.summary_file},
+                                                              {"--cache", options.cache_file},
+                                                              {"--stills", options.stills}};
+    for (const std::string& file : options.picture_files) files.emplace_back("--render", file);
+    for (std::size_t i = 0; i < files.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k)
+            if (!files[i].second.empty() && files[i].second == files[k].second)
+                throw Error(ErrorKind::bad_usage, std::string(files[k].first) + " and " + files[i].first +
+                                                      " both name '" + files[i].second +
+                                                      "'; every output needs a name of its own");
+    const bool numbered_png =
+        options.stills.find('%') != std::string::npos && options.stills.ends_with(".png");
+    if (!options.stills.empty() && !numbered_png)
+        throw Error(ErrorKind::bad_usage,
+                    "--stills '" + options.stills + "' must be of the form still_%04d.png");
+    if (!options.summary_file.empty()) const AtomicFile probe(options.summary_file);
+}
+
+/// Draws a simulation for the recorders that want pictures; frames stay on the device when the simulation is
+/// there.
 class Pictures {
 public:
-    Pictures(Simulation& simulation, const RunOptions& options, std::uint64_t frames) : simulation_(simulation)
+    Pictures(Simulation& simulation, const RunOptions& options, std::uint64_t frames)
+        : simulation_(simulation)
     {
         for (const std::string& file : options.picture_files)
             recorders_.push_back(std::make_unique<PictureRecorder>(file, simulation.scene().time.frame_rate));
         if (!options.stills.empty()) {
             stills_ = std::make_unique<PictureRecorder>(options.stills, simulation.scene().time.frame_rate);
             constexpr std::uint64_t still_count = 6;
-            for (std::uint64_t k = 0; k < still_count; ++k) still_frames_.push_back(k * frames / (still_count - 1));
+            for (std::uint64_t k = 0; k < still_count; ++k)
+                still_frames_.push_back(k * frames / (still_count - 1));
         }
         if (recorders_.empty() && !stills_) return;
         try {
@@ -81,10 +123,14 @@ public:
     void take(std::uint64_t frame, bool last)
     {
         const auto start = Clock::now();
-        const bool still = stills_ && (last || std::count(still_frames_.begin(), still_frames_.end(), frame) > 0);
+        const bool still =
+            stills_ && (last || std::count(still_frames_.begin(), still_frames_.end(), frame) > 0);
         bool wanted = still;
         for (const auto& recorder : recorders_) wanted |= recorder->wants(frame, last);
-        if (!wanted) return;
+        // Nodes on their way to infinity cannot be seen, and software rasterisers take minutes over their
+        // triangles.
+        constexpr double fastest_drawn = 1e6;  // m/s
+        if (!wanted || simulation_.report().measures.max_speed > fastest_drawn) return;
         draw();
         for (const auto& recorder : recorders_)
             if (recorder->wants(frame, last)) recorder->add(image_, frame);
@@ -109,7 +155,8 @@ private:
         std::vector<ClothTopology> topologies;
         for (std::size_t c = 0; c < scene.cloth_count(); ++c) {
             const auto* sheet = std::get_if<SheetOptions>(&scene.cloth(c).shape);
-            topologies.push_back({simulation_.triangles(c), static_cast<std::uint32_t>(simulation_.positions(c).size()),
+            topologies.push_back({simulation_.triangles(c),
+                                  static_cast<std::uint32_t>(simulation_.positions(c).size()),
                                   sheet ? sheet->rows : 0, sheet ? sheet->columns : 0});
         }
         renderer_ = std::make_unique<Renderer>(device_, scene, topologies);
@@ -122,8 +169,8 @@ private:
             if (DeviceState* state = simulation_.device_state())
                 frames_.push_back(ClothFrame{state->drawable(c)});
             else
-                frames_.push_back(
-                    ClothFrame{HostCloth{simulation_.positions(c), simulation_.normals(c), simulation_.strains(c)}});
+                frames_.push_back(ClothFrame{
+                    HostCloth{simulation_.positions(c), simulation_.normals(c), simulation_.strains(c)}});
         }
         renderer_->draw(simulation_.time(), frames_, image_);
     }
@@ -144,13 +191,15 @@ private:
 class Run {
 public:
     explicit Run(const RunOptions& options)
-        : options_(options), scene_(read_scene(options.scene, options.overrides)),
+        : options_((check_outputs(options), options)),
+          scene_(read_scene(options.scene, options.overrides)),
           simulation_(scene_, options.simulation),
           frames_(options.frames.value_or(static_cast<std::uint64_t>(
               std::max(1.0, std::round(scene_.time.duration * scene_.time.frame_rate))))),
           pictures_(simulation_, options, frames_)
     {
-        if (!options.statistics_file.empty()) statistics_ = std::make_unique<StatisticsFile>(options.statistics_file);
+        if (!options.statistics_file.empty())
+            statistics_ = std::make_unique<StatisticsFile>(options.statistics_file);
         if (!options.cache_file.empty()) cache_ = make_cache_file(options.cache_file);
     }
 
@@ -168,11 +217,13 @@ private:
         const std::string warning = simulation_.stability_warning();
         if (!warning.empty()) std::fprintf(stderr, "warning: %s\n", warning.c_str());
         if (!pictures_.refusal().empty())
-            std::fprintf(stderr, "warning: the run goes on without pictures: %s\n", pictures_.refusal().c_str());
+            std::fprintf(stderr, "warning: the run goes on without pictures: %s\n",
+                         pictures_.refusal().c_str());
         if (options_.quiet) return;
-        std::printf("%s: %s nodes, %s springs, %llu frames of %.4g ms in %u steps, on %s\n", scene_.name.c_str(),
-                    with_commas(simulation_.node_count()).c_str(), with_commas(simulation_.spring_count()).c_str(),
-                    static_cast<unsigned long long>(frames_), 1000 / scene_.time.frame_rate, simulation_.steps_per_frame(),
+        std::printf("%s: %s nodes, %s springs, %llu frames of %.4g ms in %u steps, on %s\n",
+                    scene_.name.c_str(), with_commas(simulation_.node_count()).c_str(),
+                    with_commas(simulation_.spring_count()).c_str(), static_cast<unsigned long long>(frames_),
+                    1000 / scene_.time.frame_rate, simulation_.steps_per_frame(),
                     simulation_.device_name().c_str());
         std::fflush(stdout);
     }
@@ -185,7 +236,8 @@ private:
         if (statistics_) statistics_->add(report, 0);
         if (cache_) cache_->add(simulation_, 0);
         pictures_.take(0, false);
-        for (std::uint64_t frame = 1; frame <= frames_ && !interrupted; ++frame) {
+        bool last = false;
+        for (std::uint64_t frame = 1; !last; ++frame) {
             const double wall_before = report.wall_seconds;
             simulation_.advance(1 / scene_.time.frame_rate);
             if (report.device_lost) break;
@@ -193,8 +245,10 @@ private:
             if (statistics_) statistics_->add(report, 1000 * (report.wall_seconds - wall_before));
             if (!report.finite) break;
             if (cache_) cache_->add(simulation_, frame);
-            pictures_.take(frame, frame == frames_ || interrupted);
-            progress.update(frame, formatted("%.3g x real time", report.simulated_seconds / report.wall_seconds));
+            last = frame == frames_ || interrupted;  // asked once, as a Ctrl-C may come at any time
+            pictures_.take(frame, last);
+            progress.update(frame,
+                            formatted("%.3g x real time", report.simulated_seconds / report.wall_seconds));
         }
     }
 
@@ -205,22 +259,26 @@ private:
         if (statistics_) statistics_->finish();
         if (cache_) cache_->finish();
         if (report.device_lost)
-            throw Error(ErrorKind::device_failure, "the device " + simulation_.device_name() + " was lost in frame " +
+            throw Error(ErrorKind::device_failure, "the device " + simulation_.device_name() +
+                                                       " was lost in frame " +
                                                        std::to_string(report.frames + 1) +
                                                        "; update its driver, or run with --backend cpu");
-        if (!options_.summary_file.empty()) summary_.write(options_.summary_file, simulation_, seconds_since(start_));
+        if (!options_.summary_file.empty())
+            summary_.write(options_.summary_file, simulation_, seconds_since(start_));
         if (!report.finite) throw Error(ErrorKind::diverged, divergence());
         if (!options_.quiet) say_end();
-        if (interrupted) std::fprintf(stderr, "interrupted after frame %llu; the files are complete up to there\n",
-                                      static_cast<unsigned long long>(report.frames));
-        return interrupted ? 130 : check();
+        if (interrupted)
+            std::fprintf(stderr, "interrupted after frame %llu; the files are complete up to there\n",
+                         static_cast<unsigned long long>(report.frames));
+        return interrupted ? 128 + interrupted : check();  // as a shell counts signals
     }
 
     int check()
     {
         if (!options_.check) return 0;
         const auto failures = failed_checks(scene_, summary_.values(simulation_));
-        for (const std::string& failure : failures) std::fprintf(stderr, "check failed: %s\n", failure.c_str());
+        for (const std::string& failure : failures)
+            std::fprintf(stderr, "check failed: %s\n", failure.c_str());
         if (failures.empty() && !options_.quiet)
             std::printf("check: all %zu bounds of the scene hold\n", scene_.checks.size());
         return failures.empty() ? 0 : static_cast<int>(ErrorKind::bad_input);
@@ -242,19 +300,24 @@ private:
     {
         const Report& report = simulation_.report();
         const double wall = std::max(report.wall_seconds, 1e-9);
-        std::printf("simulated %.4g s in %.3g s: %.4g frames/s, %.3g x real time", report.simulated_seconds, wall,
-                    static_cast<double>(report.frames) / wall, report.simulated_seconds / wall);
+        std::printf("simulated %.4g s in %.3g s: %.4g frames/s, %.3g x real time", report.simulated_seconds,
+                    wall, static_cast<double>(report.frames) / wall, report.simulated_seconds / wall);
         if (!pictures_.device_name().empty())
             std::printf("; pictures %.3g s on %s", pictures_.seconds(), pictures_.device_name().c_str());
-        std::printf("\nstretch at most %.3g %% in the last second, %.3g %% ever; penetration at most %.2g mm; state %s\n",
-                    100 * summary_.max_stretch(report.simulated_seconds), 100 * summary_.max_stretch_peak(),
-                    1000 * summary_.max_penetration(), hash_text(simulation_.state_hash()).c_str());
+        std::printf(
+            "\nstretch at most %.3g %% in the last second, %.3g %% ever; penetration at most %.2g mm; state "
+            "%s\n",
+            100 * summary_.max_stretch(report.simulated_seconds), 100 * summary_.max_stretch_peak(),
+            1000 * summary_.max_penetration(), hash_text(simulation_.state_hash()).c_str());
         std::vector<std::string> files;
         if (pictures_.refusal().empty()) {
             files = options_.picture_files;
             if (!options_.stills.empty()) files.push_back(options_.stills);
         }
-        for (const std::string& file : {options_.cache_file, options_.statistics_file, options_.summary_file})
+        if (!options_.cache_file.empty()) files.push_back(options_.cache_file);
+        if (lower_case_ending(options_.cache_file) == ".pc2")
+            files.push_back(std::filesystem::path(options_.cache_file).replace_extension(".obj").string());
+        for (const std::string& file : {options_.statistics_file, options_.summary_file})
             if (!file.empty()) files.push_back(file);
         for (const std::string& file : files) std::printf("wrote %s\n", file.c_str());
     }

@@ -1,7 +1,8 @@
 // What is simulated: cloths, colliders, air and gravity. SI units everywhere; y is up.
 //
-// A Scene is plain data plus the few builders that make it pleasant to write by hand. `read_scene` fills the same
-// structure from a scene file (docs/scenes.md), and `validate` is the one place that says what is allowed.
+// A Scene is plain data plus the few builders that make it pleasant to write by hand. `read_scene` fills the
+// same structure from a scene file (docs/scenes.md), and `validate` is the one place that says what is
+// allowed.
 #pragma once
 
 #include <cstdint>
@@ -22,12 +23,13 @@ namespace pliant {
 enum class Corner { top_left, top_right, bottom_left, bottom_right };
 /// Edges of a sheet: "top" is row 0, "left" is column 0.
 enum class Edge { top, bottom, left, right };
-/// An axis-aligned region of the scene; a node that is inside or on the border of it before the first step is meant.
+/// An axis-aligned region of the scene; a node that is inside or on the border of it before the first step is
+/// meant.
 struct Region {
     Vec3d min, max;  ///< m
 };
-/// What to hold in place: a node index (unsigned, row by row on a sheet), a named corner or edge of a sheet, or every
-/// node in a region.
+/// What to hold in place: a node index (unsigned, row by row on a sheet), a named corner or edge of a sheet,
+/// or every node in a region.
 using Pin = std::variant<std::uint32_t, Corner, Edge, Region>;
 
 /// Stiffness and damping of one class of spring.
@@ -36,11 +38,12 @@ struct SpringParameters {
     double damping = 0;    ///< N s/m, 0 to 1e6
 };
 
-/// The three classes of the cloth paper (section 2.1). On a triangle mesh an edge is structural, and a bend spring
-/// joins the two vertices opposite an interior edge; there are no shear springs.
+/// The three classes of the cloth paper (section 2.1). On a triangle mesh an edge is structural, and a bend
+/// spring joins the two vertices opposite an interior edge; there are no shear springs.
 struct Springs {
     SpringParameters structural{1000.0, 0.01};
-    SpringParameters shear{500.0, 0.01};  ///< half the structural stiffness makes a sheet isotropic (nu = 1/3)
+    SpringParameters shear{500.0,
+                           0.01};  ///< half the structural stiffness makes a sheet isotropic (nu = 1/3)
     SpringParameters bend{10.0, 0.001};
 };
 
@@ -53,10 +56,10 @@ enum class Formulation {
 
 /// A rectangular sheet of `rows` x `columns` nodes, flat and at rest, lying in the x-z plane.
 struct SheetOptions {
-    std::uint32_t rows = 2;     ///< nodes, >= 2; row 0 is the "top", at the side of negative z
-    std::uint32_t columns = 2;  ///< nodes, >= 2; column 0 is the "left", at the side of negative x
-    double width = 1.0;         ///< m, along a row (x before rotation)
-    double height = 1.0;        ///< m, along a column (z before rotation)
+    std::uint32_t rows = 2;                ///< nodes, >= 2; row 0 is the "top", at the side of negative z
+    std::uint32_t columns = 2;             ///< nodes, >= 2; column 0 is the "left", at the side of negative x
+    double width = 1.0;                    ///< m, along a row (x before rotation)
+    double height = 1.0;                   ///< m, along a column (z before rotation)
     std::optional<double> density = {};    ///< kg/m2; 0.3 when neither this nor node_mass is given
     std::optional<double> node_mass = {};  ///< kg per node, instead of density
 };
@@ -82,7 +85,8 @@ struct Cloth {
     std::string name = "cloth";
     std::variant<SheetOptions, SurfaceMesh> shape;
     /// kg/m2; a sheet shares its mass equally, a mesh by the area around a vertex. 0.3 when neither this nor
-    /// node_mass is set. The one of SheetOptions is moved here by `sheet`; in `shape` itself it must stay empty.
+    /// node_mass is set. The one of SheetOptions is moved here by `sheet`; in `shape` itself it must stay
+    /// empty.
     std::optional<double> density;
     std::optional<double> node_mass;  ///< kg per node, instead of density
     double scale = 1.0;               ///< of a mesh
@@ -104,13 +108,14 @@ enum class ContactResponse {
 
 /// Where a moving collider is at a time; in between, positions and angles are interpolated linearly.
 struct Keyframe {
-    double time = 0;  ///< s, increasing
-    Vec3d position = {};   ///< m, added to the collider's own
-    Vec3d rotation = {};   ///< degrees about x, then y, then z, around the collider's centre
+    double time = 0;      ///< s, increasing
+    Vec3d position = {};  ///< m, added to the collider's own
+    Vec3d rotation = {};  ///< degrees about x, then y, then z, around the collider's centre
 };
 
 // friction: Coulomb coefficient, 0 to 10. keyframes: empty, and it stands still.
-// The shapes are written so that designated initialisers read well: {.centre = {0, 0.4, 0}, .radius = 0.3, .friction = 0.4}
+// The shapes are written so that designated initialisers read well: {.centre = {0, 0.4, 0}, .radius = 0.3,
+// .friction = 0.4}
 struct Sphere {
     Vec3d centre = {};    ///< m
     double radius = 0.5;  ///< m
@@ -127,16 +132,16 @@ struct Plane {
     std::vector<Keyframe> keyframes = {};
 };
 struct Box {
-    Vec3d centre = {};            ///< m
-    Vec3d size = {1, 1, 1};       ///< m, full edge lengths
-    Vec3d rotation = {};          ///< degrees about x, then y, then z
+    Vec3d centre = {};       ///< m
+    Vec3d size = {1, 1, 1};  ///< m, full edge lengths
+    Vec3d rotation = {};     ///< degrees about x, then y, then z
     double friction = 0.3;
     ContactResponse response = ContactResponse::coulomb;
     std::vector<Keyframe> keyframes = {};
 };
 struct Capsule {
     Vec3d start = {}, end = {};  ///< m, the centres of the two half-spheres
-    double radius = 0.1;  ///< m
+    double radius = 0.1;         ///< m
     double friction = 0.3;
     ContactResponse response = ContactResponse::coulomb;
     std::vector<Keyframe> keyframes = {};
@@ -146,30 +151,31 @@ using Collider = std::variant<Sphere, Plane, Box, Capsule>;
 /// Moving air; forces per triangle by its velocity against the air. Off while `density` is 0.
 struct Air {
     Vec3d velocity = {};  ///< m/s, the wind
-    double density = 0;  ///< kg/m3; 1.2 for air
-    double drag = 1.0;   ///< coefficient, along the relative wind
-    double lift = 0.5;   ///< coefficient, across it
+    double density = 0;   ///< kg/m3; 1.2 for air
+    double drag = 1.0;    ///< coefficient, along the relative wind
+    double lift = 0.5;    ///< coefficient, across it
 };
 
 /// Length and resolution of time.
 struct TimeOptions {
-    double duration = 5.0;            ///< s, of a run from the command line
-    double frame_rate = 60.0;         ///< 1/s, pictures and statistics per second
-    std::uint32_t substeps = 0;       ///< steps per frame; 0 chooses enough for stability
+    double duration = 5.0;       ///< s, of a run from the command line
+    double frame_rate = 60.0;    ///< 1/s, pictures and statistics per second
+    std::uint32_t substeps = 0;  ///< steps per frame; 0 chooses enough for stability
 };
 
 /// Where pictures are taken from, and how the cloth is coloured.
 enum class ClothColour { checker, strain };
 struct Camera {
-    Vec3d position{1.6, 1.2, 2.2};   ///< m
-    Vec3d target{0, 0.4, 0};         ///< m
-    double field_of_view = 35.0;     ///< degrees, vertical
-    std::uint32_t width = 1280;      ///< pixels
-    std::uint32_t height = 720;      ///< pixels
+    Vec3d position{1.6, 1.2, 2.2};  ///< m
+    Vec3d target{0, 0.4, 0};        ///< m
+    double field_of_view = 35.0;    ///< degrees, vertical
+    std::uint32_t width = 1280;     ///< pixels
+    std::uint32_t height = 720;     ///< pixels
     ClothColour colour = ClothColour::checker;
 };
 
-/// A scene's own check: `value` names a number of the summary, which must lie in [min, max] after the whole run.
+/// A scene's own check: `value` names a number of the summary, which must lie in [min, max] after the whole
+/// run.
 struct Check {
     std::string value;
     double min = 0, max = 0;
@@ -220,11 +226,13 @@ private:
     std::vector<std::unique_ptr<Cloth>> cloths_;  // by pointer, so that handles survive further add()s
 };
 
-/// Throws Error(bad_input) for the first value that is out of its range; the message names the field as a JSON path.
+/// Throws Error(bad_input) for the first value that is out of its range; the message names the field as a
+/// JSON path.
 void validate(const Scene& scene);
 
-/// Reads a scene file, or a built-in scene by its name. `overrides` are "path=value" as in `--set time.duration=2`.
-/// Throws Error(bad_input) naming file, line or JSON path, value, unit and the nearest valid name.
+/// Reads a scene file, or a built-in scene by its name. `overrides` are "path=value" as in `--set
+/// time.duration=2`. Throws Error(bad_input) naming file, line or JSON path, value, unit and the nearest
+/// valid name.
 Scene read_scene(const std::string& file_or_name, const std::vector<std::string>& overrides = {});
 
 /// A built-in scene: its name and what it shows.

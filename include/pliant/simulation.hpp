@@ -27,15 +27,17 @@ public:
     virtual ~JobSystem() = default;
     /// How many tasks can run at once, >= 1.
     virtual unsigned thread_count() const = 0;
-    /// Calls task(context, 0) ... task(context, count - 1), in any order and on any threads; returns when all are done.
+    /// Calls task(context, 0) ... task(context, count - 1), in any order and on any threads; returns when all
+    /// are done.
     virtual void run(unsigned count, void (*task)(void* context, unsigned index), void* context) = 0;
 };
 
 struct SimulationOptions {
     Backend backend = Backend::automatic;
-    int device = -1;                  ///< Vulkan: index as listed by `pliant info`; -1 chooses the best
-    unsigned threads = 0;             ///< cpu: 0 means one for each core; results do not depend on it
-    std::string instruction_set = {}; ///< cpu: "sse2", "avx2", "avx512"; empty chooses the widest of this machine
+    int device = -1;       ///< Vulkan: index as listed by `pliant info`; -1 chooses the best
+    unsigned threads = 0;  ///< cpu: 0 means one for each core; results do not depend on it
+    std::string instruction_set =
+        {};  ///< cpu: "sse2", "avx2", "avx512"; empty chooses the widest of this machine
     JobSystem* job_system = nullptr;  ///< cpu: borrowed, must outlive the simulation
     bool validation = false;          ///< Vulkan: with the validation layer; its messages count in `report()`
 };
@@ -47,16 +49,16 @@ struct PassTime {
     std::uint64_t calls = 0;
 };
 
-/// Measures of the state at the end of the last frame, over all cloths. Stretch is (l - l0) / l0 over structural and
-/// shear springs.
+/// Measures of the state at the end of the last frame, over all cloths. Stretch is (l - l0) / l0 over
+/// structural and shear springs.
 struct FrameMeasures {
     double max_stretch = 0;
     double mean_stretch = 0;
-    double max_penetration = 0;  ///< m, of a node below a collider's surface plus the cloth's thickness
-    double max_speed = 0;        ///< m/s
-    double kinetic_energy = 0;   ///< J
-    double elastic_energy = 0;   ///< J
-    double potential_energy = 0; ///< J, of gravity against the origin
+    double max_penetration = 0;    ///< m, of a node below a collider's surface plus the cloth's thickness
+    double max_speed = 0;          ///< m/s
+    double kinetic_energy = 0;     ///< J
+    double elastic_energy = 0;     ///< J
+    double potential_energy = 0;   ///< J, of gravity against the origin
     std::uint64_t non_finite = 0;  ///< nodes with a position or velocity that is not finite
 };
 
@@ -81,23 +83,25 @@ class DeviceState;  // the Vulkan side of a simulation, see src/backend/vulkan
 /// Steps a scene through time. The scene is copied; changing it afterwards changes nothing here.
 class Simulation {
 public:
-    /// Throws Error(bad_input) for an invalid scene and Error(device_failure) when the backend is not to be had.
+    /// Throws Error(bad_input) for an invalid scene and Error(device_failure) when the backend is not to be
+    /// had.
     explicit Simulation(const Scene& scene, const SimulationOptions& options = {});
     ~Simulation();
     Simulation(Simulation&&) noexcept;
     Simulation& operator=(Simulation&&) noexcept;
 
-    /// Advances by `duration` seconds in equal steps: the scene's substeps when it sets them (then a step lasts
-    /// 1 / (frame_rate substeps) and `duration` is rounded to whole steps, at least one), else as many as stability
-    /// asks for. Never throws. After a non-finite node it does nothing more; see report().
+    /// Advances by `duration` seconds in equal steps: the scene's substeps when it sets them (then a step
+    /// lasts 1 / (frame_rate substeps) and `duration` is rounded to whole steps, at least one), else as many
+    /// as stability asks for. Never throws. Once a node is not finite or the device is lost (see report())
+    /// nothing moves any more but time(), so that loops come to their end.
     void advance(double duration) noexcept;
 
     double time() const;  ///< s
     const Report& report() const;
     std::vector<PassTime> pass_times() const;
 
-    /// Positions of a cloth in m, one for each node, row by row on a sheet. Read back from the device when asked
-    /// for; valid until the next call of advance().
+    /// Positions of a cloth in m, one for each node, row by row on a sheet. Read back from the device when
+    /// asked for; valid until the next call of advance().
     std::span<const Vec3> positions(const ClothHandle& cloth);
     std::span<const Vec3> positions(std::size_t cloth = 0);
     /// Velocities in m/s.
@@ -110,7 +114,8 @@ public:
     /// Triangles of a cloth, fixed over time.
     std::span<const Triangle> triangles(std::size_t cloth = 0) const;
 
-    /// The bits of all positions and velocities, in node order (FNV-1a, 64 bit). Equal hashes mean equal states.
+    /// The bits of all positions and velocities, in node order (FNV-1a, 64 bit). Equal hashes mean equal
+    /// states.
     std::uint64_t state_hash();
 
     const Scene& scene() const;
@@ -124,8 +129,9 @@ public:
     /// Length of a step of a frame in s.
     double step_length() const;
     std::uint32_t steps_per_frame() const;
-    /// The largest step that is certainly stable for the springs' stiffness, damping and the masses, by Gershgorin's
-    /// theorem; up to twice as much may do. See docs/physics.md. Infinite without springs and damping.
+    /// The largest step that is certainly stable for the springs' stiffness, damping and the masses, by
+    /// Gershgorin's theorem; up to twice as much may do. See docs/physics.md. Infinite without springs and
+    /// damping.
     double stable_step() const;
     /// A sentence when the scene's step is larger than `stable_step`, else empty.
     std::string stability_warning() const;
@@ -141,9 +147,9 @@ private:
 /// A place where passes can run, as `pliant info` lists it.
 struct DeviceListing {
     Backend backend = Backend::cpu;
-    int index = 0;             ///< for SimulationOptions::device, Vulkan only
-    std::string name, kind;    ///< kind: "discrete GPU", "integrated GPU", "software", "avx512", ...
-    std::string details;       ///< limits, one line
+    int index = 0;           ///< for SimulationOptions::device, Vulkan only
+    std::string name, kind;  ///< kind: "discrete GPU", "integrated GPU", "software", "avx512", ...
+    std::string details;     ///< limits, one line
 };
 std::vector<DeviceListing> list_devices();
 

@@ -1,4 +1,5 @@
-// The one interface of all backends: hold the state of some cloths, run programs on it, give it back when asked.
+// The one interface of all backends: hold the state of some cloths, run programs on it, give it back when
+// asked.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +17,11 @@ namespace pliant {
 
 /// What changes from frame to frame.
 struct FrameInput {
-    double step_length = 0;                         ///< s
+    double step_length = 0;  ///< s
     std::uint32_t collider_count = 0;
-    std::span<const PlacedCollider> colliders;      ///< collider_count for each step, or once when `colliders_rest`
-    bool colliders_rest = true;                     ///< the same at every step
+    std::span<const PlacedCollider>
+        colliders;               ///< collider_count for each step, or once when `colliders_rest`
+    bool colliders_rest = true;  ///< the same at every step
 
     /// Colliders at the end of a step of the frame; the calls that know no collider may ask with any index.
     std::span<const PlacedCollider> colliders_at(std::uint32_t step) const
@@ -43,8 +45,10 @@ public:
     /// Runs the calls in order. Throws only when a device is lost.
     virtual void run(const Program& program, const FrameInput& input) = 0;
 
-    /// Copies a resource into floats, as many per entry as Resource documents, in node, spring or level order.
-    virtual void read(std::uint32_t cloth, Resource resource, std::uint32_t parity, std::vector<float>& values) = 0;
+    /// Copies a resource into floats, as many per entry as Resource documents, in node, spring or level
+    /// order.
+    virtual void read(std::uint32_t cloth, Resource resource, std::uint32_t parity,
+                      std::vector<float>& values) = 0;
     /// The root of the tree of measures after a program that computed it.
     virtual MeasureTotals measures(std::uint32_t cloth) = 0;
 
@@ -55,7 +59,8 @@ public:
 };
 
 std::unique_ptr<PassRunner> make_reference_runner(std::span<const ClothModel> cloths);
-std::unique_ptr<PassRunner> make_cpu_runner(std::span<const ClothModel> cloths, const SimulationOptions& options);
+std::unique_ptr<PassRunner> make_cpu_runner(std::span<const ClothModel> cloths,
+                                            const SimulationOptions& options);
 
 /// Milliseconds by pass.
 class PassClock {

@@ -28,7 +28,8 @@ double distance(Vec3d a, Vec3d b) { return std::sqrt(dot(b - a, b - a)); }
 
 double area(const std::vector<Vec3>& positions, const Triangle& t)
 {
-    const Vec3d n = cross(at(positions, t[1]) - at(positions, t[0]), at(positions, t[2]) - at(positions, t[0]));
+    const Vec3d n =
+        cross(at(positions, t[1]) - at(positions, t[0]), at(positions, t[2]) - at(positions, t[0]));
     return 0.5 * std::sqrt(dot(n, n));
 }
 
@@ -74,7 +75,10 @@ public:
     }
 
 private:
-    std::uint32_t node(std::uint32_t row, std::uint32_t column) const { return row * model_.sheet->columns + column; }
+    std::uint32_t node(std::uint32_t row, std::uint32_t column) const
+    {
+        return row * model_.sheet->columns + column;
+    }
     const ClothModel& model_;
 };
 
@@ -112,8 +116,9 @@ ClothModel::ClothModel(const Cloth& cloth, const Scene& scene)
         measured_spring_count_ = sheet_measured_spring_count(sheet->rows, sheet->columns);
     } else {
         spring_count_ = springs.size();
-        measured_spring_count_ = static_cast<std::uint64_t>(std::count_if(
-            springs.begin(), springs.end(), [](const Spring& spring) { return spring.spring_class != SpringClass::bend; }));
+        measured_spring_count_ = static_cast<std::uint64_t>(
+            std::count_if(springs.begin(), springs.end(),
+                          [](const Spring& spring) { return spring.spring_class != SpringClass::bend; }));
     }
 }
 
@@ -165,10 +170,11 @@ void ClothModel::set_masses(const Cloth& cloth)
                 mass[node] += cloth.density.value_or(default_density) * area(positions, t) / 3;
         for (std::size_t i = 0; i < count; ++i)
             if (!(mass[i] > 0))
-                throw Error(ErrorKind::bad_input,
-                            "the mesh of cloth '" + cloth.name + "': vertex " + std::to_string(i) +
-                                " belongs to no triangle with an area, so that its mass would be 0; remove it from the "
-                                "mesh, or give node_mass instead of density");
+                throw Error(ErrorKind::bad_input, "the mesh of cloth '" + cloth.name + "': vertex " +
+                                                      std::to_string(i) +
+                                                      " belongs to no triangle with an area, so that its "
+                                                      "mass would be 0; remove it from the "
+                                                      "mesh, or give node_mass instead of density");
     }
     masses.assign(mass.begin(), mass.end());
     inverse_masses.resize(count);
@@ -181,8 +187,9 @@ void ClothModel::set_pins(const Cloth& cloth)
     for (std::size_t p = 0; p < cloth.pins.size(); ++p) {
         const std::vector<std::uint32_t> nodes = std::visit(nodes_of, cloth.pins[p]);
         if (nodes.empty())
-            throw Error(ErrorKind::bad_input, "cloth '" + cloth.name + "': pins[" + std::to_string(p) +
-                                                  "] is a box that contains no node of the cloth; move or enlarge it");
+            throw Error(ErrorKind::bad_input,
+                        "cloth '" + cloth.name + "': pins[" + std::to_string(p) +
+                            "] is a box that contains no node of the cloth; move or enlarge it");
         for (const std::uint32_t node : nodes) {
             inverse_masses[node] = 0;
             velocities[node] = {};
@@ -209,7 +216,7 @@ void ClothModel::list_mesh_springs()
     sides.reserve(triangles_.size() * 3);
     for (const Triangle& t : triangles_)
         for (std::size_t k = 0; k < 3; ++k)
-            if (t[k] != t[(k + 1) % 3]) sides.push_back({ordered(t[k], t[(k + 1) % 3]), t[(k + 2) % 3]});
+            if (t[k] != t[(k + 1) % 3]) sides.emplace_back(ordered(t[k], t[(k + 1) % 3]), t[(k + 2) % 3]);
     std::sort(sides.begin(), sides.end());
 
     std::vector<Pair> edges, bends;
@@ -248,7 +255,8 @@ void ClothModel::list_neighbours()
         neighbours.entries[next[springs[s].j]++] = {springs[s].i, s};
     }
     for (std::size_t i = 0; i < positions.size(); ++i)
-        std::sort(neighbours.entries.begin() + neighbours.start[i], neighbours.entries.begin() + neighbours.start[i + 1],
+        std::sort(neighbours.entries.begin() + neighbours.start[i],
+                  neighbours.entries.begin() + neighbours.start[i + 1],
                   [](const Neighbour& a, const Neighbour& b) { return a.node < b.node; });
 }
 

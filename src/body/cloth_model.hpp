@@ -24,7 +24,8 @@ struct Spring {
 /// The other end of a spring, seen from a node.
 struct Neighbour {
     std::uint32_t node = 0;
-    std::uint32_t spring = 0;  ///< index into ClothModel::springs; the sign of its force follows from node order
+    std::uint32_t spring =
+        0;  ///< index into ClothModel::springs; the sign of its force follows from node order
 };
 
 /// Rows of different length in one array: row i is entries[start[i]] ... entries[start[i + 1] - 1].
@@ -45,21 +46,13 @@ struct SheetNeighbour {
     int rest = 0;  ///< index into SheetShape::rest_lengths
 };
 
-/// The canonical order in which every backend adds a node's springs: by the neighbour's index, that is backward
-/// neighbours (the first six) in row order, then forward ones.
+/// The canonical order in which every backend adds a node's springs: by the neighbour's index, that is
+/// backward neighbours (the first six) in row order, then forward ones.
 inline constexpr SheetNeighbour sheet_neighbours[12] = {
-    {-2, 0, SpringClass::bend, 4},
-    {-1, -1, SpringClass::shear, 2},
-    {-1, 0, SpringClass::structural, 1},
-    {-1, 1, SpringClass::shear, 2},
-    {0, -2, SpringClass::bend, 3},
-    {0, -1, SpringClass::structural, 0},
-    {0, 1, SpringClass::structural, 0},
-    {0, 2, SpringClass::bend, 3},
-    {1, -1, SpringClass::shear, 2},
-    {1, 0, SpringClass::structural, 1},
-    {1, 1, SpringClass::shear, 2},
-    {2, 0, SpringClass::bend, 4},
+    {-2, 0, SpringClass::bend, 4},      {-1, -1, SpringClass::shear, 2}, {-1, 0, SpringClass::structural, 1},
+    {-1, 1, SpringClass::shear, 2},     {0, -2, SpringClass::bend, 3},   {0, -1, SpringClass::structural, 0},
+    {0, 1, SpringClass::structural, 0}, {0, 2, SpringClass::bend, 3},    {1, -1, SpringClass::shear, 2},
+    {1, 0, SpringClass::structural, 1}, {1, 1, SpringClass::shear, 2},   {2, 0, SpringClass::bend, 4},
 };
 
 struct SheetShape {
@@ -135,7 +128,8 @@ void for_each_sheet_spring(const SheetShape& sheet, Function&& f)
                 const std::int64_t r = row + std::int64_t{sheet_neighbours[n].row_offset};
                 const std::int64_t c = column + std::int64_t{sheet_neighbours[n].column_offset};
                 if (r < 0 || c < 0 || r >= sheet.rows || c >= sheet.columns) continue;
-                f(row * sheet.columns + column, static_cast<std::uint32_t>(r * sheet.columns + c), sheet_neighbours[n]);
+                f(row * sheet.columns + column, static_cast<std::uint32_t>(r * sheet.columns + c),
+                  sheet_neighbours[n]);
             }
 }
 

@@ -73,7 +73,8 @@ RigidMotion motion_at(const std::vector<Keyframe>& keyframes, double time)
     const Rotation turn_z = about_z(degrees.z * radians_per_degree);
     const Rotation turn_zy = compose(turn_z, about_y(degrees.y * radians_per_degree));
     return {a.position + (b.position - a.position) * s, rotation_from_degrees(degrees),
-            (b.position - a.position) * (1 / span), Vec3d{0, 0, rate.z} + turn_z[1] * rate.y + turn_zy[0] * rate.x};
+            (b.position - a.position) * (1 / span),
+            Vec3d{0, 0, rate.z} + turn_z[1] * rate.y + turn_zy[0] * rate.x};
 }
 
 PlacedCollider placed_at(const Collider& collider, double time)

@@ -18,28 +18,28 @@ Rotation compose(const Rotation& outer, const Rotation& inner);
 
 /// A rigid motion against the collider's own place.
 struct RigidMotion {
-    Vec3d offset;              ///< m
-    Rotation rotation;         ///< about the collider's centre
-    Vec3d velocity;            ///< m/s
-    Vec3d spin;                ///< rad/s
+    Vec3d offset;       ///< m
+    Rotation rotation;  ///< about the collider's centre
+    Vec3d velocity;     ///< m/s
+    Vec3d spin;         ///< rad/s
 };
 
-/// Interpolates linearly between keyframes (positions, and the three angles, so that 0 to 360 is a full turn);
-/// before the first and after the last it stands still.
+/// Interpolates linearly between keyframes (positions, and the three angles, so that 0 to 360 is a full
+/// turn); before the first and after the last it stands still.
 RigidMotion motion_at(const std::vector<Keyframe>& keyframes, double time);
 
 /// The shape of a collider at a time, in the world.
 struct PlacedCollider {
     enum class Kind { sphere, plane, box, capsule } kind = Kind::sphere;
-    Vec3d centre;         ///< m; of a plane: its point
-    Rotation axes;        ///< of a box; a plane's normal is axes[1]; a capsule's axis is axes[1]
-    Vec3d half_size;      ///< m; of a box; of a capsule y is half the distance of its ends
-    double radius = 0;    ///< m; of sphere and capsule
+    Vec3d centre;       ///< m; of a plane: its point
+    Rotation axes;      ///< of a box; a plane's normal is axes[1]; a capsule's axis is axes[1]
+    Vec3d half_size;    ///< m; of a box; of a capsule y is half the distance of its ends
+    double radius = 0;  ///< m; of sphere and capsule
     double friction = 0;
     ContactResponse response = ContactResponse::coulomb;
-    Vec3d velocity;       ///< m/s, of the centre
-    Vec3d spin;           ///< rad/s
-    bool moves = false;   ///< has keyframes
+    Vec3d velocity;      ///< m/s, of the centre
+    Vec3d spin;          ///< rad/s
+    bool moves = false;  ///< has keyframes
 };
 PlacedCollider placed_at(const Collider& collider, double time);
 

@@ -2,8 +2,9 @@
 //   Laws<double>     the oracle
 //   Laws<float>      one node at a time
 //   Laws<Pack<W>>    W nodes at a time (src/backend/cpu/pack.hpp)
-// T needs the operators + - (both kinds) * < > >= and, through NumberTraits<T>, a choice, a seed for the inverse square root and
-// a test for finiteness. Files of this build are compiled with -ffp-contract=off: contraction decides equality.
+// T needs the operators + - (both kinds) * < > >= and, through NumberTraits<T>, a choice, a seed for the
+// inverse square root and a test for finiteness. Files of this build are compiled with -ffp-contract=off:
+// contraction decides equality.
 #pragma once
 
 #include <bit>

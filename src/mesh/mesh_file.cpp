@@ -5,7 +5,7 @@
 #include <fstream>
 #include <new>
 
-#include "mesh/atomic_file.hpp"
+#include "files/atomic_file.hpp"
 #include "mesh/mesh_formats.hpp"
 #include "mesh/text_scan.hpp"
 #include "pliant/error.hpp"

@@ -29,8 +29,10 @@ public:
         while (next_statement()) {
             WordScanner words(statement_);
             const std::string_view keyword = words.next();
-            if (keyword == "v") vertex(words);
-            else if (keyword == "f") face(words);
+            if (keyword == "v")
+                vertex(words);
+            else if (keyword == "f")
+                face(words);
             else if (!keyword.empty() && std::ranges::find(stepped_over, keyword) == stepped_over.end())
                 fail("unknown statement " + in_quotes(keyword) + "; is it an OBJ file?");
         }

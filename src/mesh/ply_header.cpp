@@ -35,10 +35,14 @@ public:
             const std::string_view keyword = words.next();
             if (keyword == "end_header") return finished(words);
             if (keyword == "comment" || keyword == "obj_info" || keyword.empty()) continue;
-            if (keyword == "format") format(words);
-            else if (keyword == "element") element(words);
-            else if (keyword == "property") property(words);
-            else fail("unknown keyword " + in_quotes(keyword) + " in the header; remove the line");
+            if (keyword == "format")
+                format(words);
+            else if (keyword == "element")
+                element(words);
+            else if (keyword == "property")
+                property(words);
+            else
+                fail("unknown keyword " + in_quotes(keyword) + " in the header; remove the line");
         }
         fail("the file ends inside its header, before the line 'end_header'; export the mesh again");
     }
@@ -57,9 +61,12 @@ private:
     {
         if (std::exchange(format_seen_, true)) fail("the header has a second 'format' line; remove one");
         const std::string_view name = required(words, "name");
-        if (name == "ascii") header_.encoding = PlyEncoding::ascii;
-        else if (name == "binary_little_endian") header_.encoding = PlyEncoding::little_endian;
-        else if (name == "binary_big_endian") header_.encoding = PlyEncoding::big_endian;
+        if (name == "ascii")
+            header_.encoding = PlyEncoding::ascii;
+        else if (name == "binary_little_endian")
+            header_.encoding = PlyEncoding::little_endian;
+        else if (name == "binary_big_endian")
+            header_.encoding = PlyEncoding::big_endian;
         else
             fail("unknown format " + in_quotes(name) +
                  "; the formats are ascii, binary_little_endian and binary_big_endian");

@@ -115,10 +115,14 @@ std::vector<Vec3> read_vertices(Rows& rows, const PlyLayout& layout)
         rows.begin(element, row);
         Vec3 vertex;
         for (const PlyProperty& property : element.properties) {
-            if (&property == layout.coordinates[0]) vertex.x = rows.coordinate(property);
-            else if (&property == layout.coordinates[1]) vertex.y = rows.coordinate(property);
-            else if (&property == layout.coordinates[2]) vertex.z = rows.coordinate(property);
-            else rows.skip(property);
+            if (&property == layout.coordinates[0])
+                vertex.x = rows.coordinate(property);
+            else if (&property == layout.coordinates[1])
+                vertex.y = rows.coordinate(property);
+            else if (&property == layout.coordinates[2])
+                vertex.z = rows.coordinate(property);
+            else
+                rows.skip(property);
         }
         rows.end();
         vertices.push_back(vertex);
@@ -151,8 +155,10 @@ Polygons read_faces(Rows& rows, const PlyLayout& layout)
     for (std::uint64_t row = 0; row < layout.face->count; ++row) {
         rows.begin(*layout.face, row);
         for (const PlyProperty& property : layout.face->properties) {
-            if (&property == layout.corners) read_corners(rows, property, layout.vertex->count, faces);
-            else rows.skip(property);
+            if (&property == layout.corners)
+                read_corners(rows, property, layout.vertex->count, faces);
+            else
+                rows.skip(property);
         }
         rows.end();
     }
@@ -177,9 +183,12 @@ SurfaceMesh read_body(const MeshSource& source, const PlyHeader& header, const P
     for (const PlyElement& element : header.elements) {
         if (element.count == 0 || element.properties.empty()) continue;  // rows of nothing take no room
         rows.check_room(element);
-        if (&element == layout.vertex) mesh.vertices = read_vertices(rows, layout);
-        else if (&element == layout.face) faces = read_faces(rows, layout);
-        else skip_rows(rows, element);
+        if (&element == layout.vertex)
+            mesh.vertices = read_vertices(rows, layout);
+        else if (&element == layout.face)
+            faces = read_faces(rows, layout);
+        else
+            skip_rows(rows, element);
     }
     // What stands after the last row is left alone: several programs append to PLY files.
 

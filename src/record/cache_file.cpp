@@ -1,11 +1,12 @@
 #include "record/cache_file.hpp"
 
+#include <bit>
 #include <cstdint>
 #include <cstdio>
-#include <bit>
 #include <limits>
 
-#include "mesh/atomic_file.hpp"
+#include "files/atomic_file.hpp"
+#include "files/numbered_name.hpp"
 
 namespace pliant {
 namespace {
@@ -27,17 +28,23 @@ SurfaceMesh whole_mesh(Simulation& simulation)
 /// "POINTCACHE2", version 1: a header of 32 bytes, then the positions of every sample; little-endian.
 class PointCache final : public CacheFile {
 public:
-    explicit PointCache(const std::filesystem::path& file) : path_(file), file_(file) {}
+    explicit PointCache(const std::filesystem::path& file)
+        : mesh_path_(std::filesystem::path(file).replace_extension(".obj")), file_(file)
+    {
+        const AtomicFile probe(mesh_path_);  // trouble is better known before the run than in it
+        refuse_foreign_mesh();
+    }
 
     void add(Simulation& simulation, std::uint64_t) override
     {
         if (samples_ == 0) {
-            if (simulation.node_count() > static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max()))
-                throw Error(ErrorKind::bad_input, "a .pc2 cache holds at most 2147483647 points; use a sequence of .ply");
+            if (simulation.node_count() >
+                static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max()))
+                throw Error(ErrorKind::bad_input,
+                            "a .pc2 cache holds at most 2147483647 points; use a sequence of .ply");
             points_ = static_cast<std::int32_t>(simulation.node_count());
             write_header();
-            std::filesystem::path mesh = path_;
-            write_mesh(mesh.replace_extension(".obj"), whole_mesh(simulation));
+            write_mesh(mesh_path_, whole_mesh(simulation));
         }
         for (std::size_t c = 0; c < simulation.scene().cloth_count(); ++c) {
             const auto positions = simulation.positions(c);
@@ -54,9 +61,22 @@ public:
     }
 
 private:
+    /// The mesh beside the cache may only replace one that Pliant wrote, not the one somebody modelled.
+    void refuse_foreign_mesh() const
+    {
+        std::ifstream existing(mesh_path_);
+        std::string line;
+        if (!existing || (std::getline(existing, line) && line.starts_with("# Pliant"))) return;
+        throw Error(ErrorKind::bad_input,
+                    "the cache '" + file_.path().string() + "' would write its mesh to '" +
+                        mesh_path_.string() +
+                        "', which exists and is not Pliant's own; give the cache another name");
+    }
+
     void write_header()
     {
-        static_assert(std::endian::native == std::endian::little, "the cache is written as it lies in memory");
+        static_assert(std::endian::native == std::endian::little,
+                      "the cache is written as it lies in memory");
         const auto write = [&](const auto& value) {
             file_.stream().write(reinterpret_cast<const char*>(&value), sizeof value);
         };
@@ -70,14 +90,17 @@ private:
         write(samples_);
     }
 
-    std::filesystem::path path_;
+    std::filesystem::path mesh_path_;
     AtomicFile file_;
     std::int32_t points_ = 0, samples_ = 0;
 };
 
 class MeshSequence final : public CacheFile {
 public:
-    explicit MeshSequence(const std::string& pattern) : names_(pattern) {}
+    explicit MeshSequence(const std::string& pattern) : names_(pattern)
+    {
+        const AtomicFile probe(names_.at(0));
+    }
     void add(Simulation& simulation, std::uint64_t frame) override
     {
         write_mesh(names_.at(frame), whole_mesh(simulation));
@@ -90,38 +113,14 @@ private:
 
 }  // namespace
 
-NumberedName::NumberedName(const std::string& pattern)
-{
-    const auto refuse = [&] {
-        throw Error(ErrorKind::bad_usage, "the name '" + pattern +
-                                              "' must hold the frame's number exactly once, as %d or %04d, for example "
-                                              "seq_%04d.ply");
-    };
-    const std::size_t percent = pattern.find('%');
-    if (percent == std::string::npos || pattern.find('%', percent + 1) != std::string::npos) refuse();
-    std::size_t end = percent + 1;
-    while (end < pattern.size() && pattern[end] >= '0' && pattern[end] <= '9') ++end;
-    const std::string digits = pattern.substr(percent + 1, end - percent - 1);
-    if (end == pattern.size() || pattern[end] != 'd' || digits.size() > 2 || (!digits.empty() && digits[0] != '0')) refuse();
-    if (!digits.empty()) digits_ = std::stoi(digits);
-    before_ = pattern.substr(0, percent);
-    after_ = pattern.substr(end + 1);
-}
-
-std::filesystem::path NumberedName::at(std::uint64_t number) const
-{
-    std::string digits = std::to_string(number);
-    if (digits.size() < static_cast<std::size_t>(digits_)) digits.insert(0, static_cast<std::size_t>(digits_) - digits.size(), '0');
-    return before_ + digits + after_;
-}
-
 std::unique_ptr<CacheFile> make_cache_file(const std::string& name)
 {
-    const std::string ending = std::filesystem::path(name).extension().string();
+    const std::string ending = lower_case_ending(name);
     if (ending == ".pc2") return std::make_unique<PointCache>(name);
     if (ending == ".ply" || ending == ".obj") return std::make_unique<MeshSequence>(name);
-    throw Error(ErrorKind::bad_usage,
-                "a cache named '" + name + "' is of no known kind: use NAME.pc2, NAME_%04d.ply or NAME_%04d.obj");
+    throw Error(
+        ErrorKind::bad_usage,
+        "a cache named '" + name + "' is of no known kind: use NAME.pc2, NAME_%04d.ply or NAME_%04d.obj");
 }
 
 }  // namespace pliant

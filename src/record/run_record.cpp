@@ -11,8 +11,9 @@ namespace pliant {
 
 StatisticsFile::StatisticsFile(const std::filesystem::path& file) : file_(file)
 {
-    file_.stream() << "frame,time_s,max_stretch,mean_stretch,max_penetration_m,max_speed_m_per_s,kinetic_energy_J,"
-                      "elastic_energy_J,potential_energy_J,non_finite_nodes,wall_ms\n";
+    file_.stream()
+        << "frame,time_s,max_stretch,mean_stretch,max_penetration_m,max_speed_m_per_s,kinetic_energy_J,"
+           "elastic_energy_J,potential_energy_J,non_finite_nodes,wall_ms\n";
 }
 
 void StatisticsFile::add(const Report& report, double wall_milliseconds)
@@ -20,9 +21,9 @@ void StatisticsFile::add(const Report& report, double wall_milliseconds)
     const FrameMeasures& m = report.measures;
     char line[512];
     std::snprintf(line, sizeof line, "%llu,%.9g,%.6g,%.6g,%.6g,%.6g,%.9g,%.9g,%.9g,%llu,%.4g\n",
-                  static_cast<unsigned long long>(report.frames), report.simulated_seconds, m.max_stretch, m.mean_stretch,
-                  m.max_penetration, m.max_speed, m.kinetic_energy, m.elastic_energy, m.potential_energy,
-                  static_cast<unsigned long long>(m.non_finite), wall_milliseconds);
+                  static_cast<unsigned long long>(report.frames), report.simulated_seconds, m.max_stretch,
+                  m.mean_stretch, m.max_penetration, m.max_speed, m.kinetic_energy, m.elastic_energy,
+                  m.potential_energy, static_cast<unsigned long long>(m.non_finite), wall_milliseconds);
     file_.stream() << line;
 }
 
@@ -95,8 +96,9 @@ void RunSummary::write(const std::filesystem::path& file, Simulation& simulation
                                          : nlohmann::ordered_json(nullptr);
     summary["wall_seconds"] = wall_seconds;
     summary["simulation_seconds"] = simulation.report().wall_seconds;
-    for (const char* key : {"frames_per_second", "real_time_factor", "max_stretch", "max_stretch_peak", "mean_stretch",
-                            "max_penetration", "kinetic_energy", "elastic_energy", "lowest_height", "highest_height"})
+    for (const char* key :
+         {"frames_per_second", "real_time_factor", "max_stretch", "max_stretch_peak", "mean_stretch",
+          "max_penetration", "kinetic_energy", "elastic_energy", "lowest_height", "highest_height"})
         summary[key] = numbers.at(key);
     summary["finite"] = simulation.report().finite;
     summary["state_hash"] = hash_text(simulation.state_hash());
@@ -116,8 +118,8 @@ std::vector<std::string> failed_checks(const Scene& scene, const std::map<std::s
         if (found == values.end()) continue;  // the reader allows only names of the summary
         if (found->second >= check.min && found->second <= check.max) continue;
         char text[256];
-        std::snprintf(text, sizeof text, "%s is %.6g, and the scene asks for %.6g to %.6g", check.value.c_str(),
-                      found->second, check.min, check.max);
+        std::snprintf(text, sizeof text, "%s is %.6g, and the scene asks for %.6g to %.6g",
+                      check.value.c_str(), found->second, check.min, check.max);
         failures.emplace_back(text);
     }
     return failures;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/atomic_file.hpp"
+#include "files/atomic_file.hpp"
 #include "pliant/simulation.hpp"
 
 namespace pliant {

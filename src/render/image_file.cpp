@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "mesh/atomic_file.hpp"
+#include "files/atomic_file.hpp"
 #include "pliant/error.hpp"
 
 #define STB_IMAGE_WRITE_STATIC

@@ -1,59 +1,24 @@
 #include "render/picture_recorder.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <string>
 
-#include "mesh/atomic_file.hpp"
+#include "files/atomic_file.hpp"
 #include "pliant/error.hpp"
 #include "render/image_file.hpp"
 
 namespace pliant {
-namespace {
-
-/// The one number of a pattern like frames_%04d.png.
-struct Number {
-    std::size_t begin = 0, end = 0;  ///< of "%04d" in the name
-    std::size_t digits = 0;          ///< at least so many, filled with zeros
-    bool valid = false;
-};
-
-Number number_in(const std::string& name)
-{
-    Number number;
-    number.begin = name.find('%');
-    if (number.begin == std::string::npos || name.find('%', number.begin + 1) != std::string::npos)
-        return number;
-    std::size_t at = number.begin + 1;
-    if (at + 1 < name.size() && name[at] == '0' && name[at + 1] >= '1' && name[at + 1] <= '9') {
-        number.digits = static_cast<std::size_t>(name[at + 1] - '0');
-        at += 2;
-    }
-    number.valid = at < name.size() && name[at] == 'd';
-    number.end = at + 1;
-    return number;
-}
-
-std::string lower_case(std::string text)
-{
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
-
-}  // namespace
 
 PictureRecorder::PictureRecorder(const std::filesystem::path& file, double frame_rate)
     : file_(file), frame_rate_(frame_rate)
 {
-    const std::string name = file.filename().string(), ending = lower_case(file.extension().string());
-    const bool pattern = name.find('%') != std::string::npos;
+    const std::string ending = lower_case_ending(file);
+    const bool pattern = file.string().find('%') != std::string::npos;
     if (ending == ".mp4")
         form_ = Form::video;
     else if (ending == ".png" && !pattern)
         form_ = Form::still;
-    else if (ending == ".png" && number_in(name).valid)
-        form_ = Form::sequence;
+    else if (ending == ".png" && NumberedName::is_valid(file.string()))
+        form_ = Form::sequence, names_.emplace(file.string());
     else
         throw Error(ErrorKind::bad_usage,
                     "--render '" + file.string() +
@@ -63,7 +28,11 @@ PictureRecorder::PictureRecorder(const std::filesystem::path& file, double frame
         name_of(0));  // a folder that is missing is better known before the run than after it
 }
 
-bool PictureRecorder::wants(std::uint64_t, bool last) const { return form_ != Form::still || last; }
+bool PictureRecorder::wants(std::uint64_t frame_index, bool last) const
+{
+    if (form_ == Form::video) return frame_index > 0;  // so that 300 frames are 5 s
+    return form_ == Form::sequence || last;
+}
 
 void PictureRecorder::add(const Image& image, std::uint64_t frame_index)
 {
@@ -79,11 +48,7 @@ void PictureRecorder::finish()
 
 std::filesystem::path PictureRecorder::name_of(std::uint64_t frame_index) const
 {
-    if (form_ != Form::sequence) return file_;
-    std::string name = file_.filename().string(), digits = std::to_string(frame_index);
-    const Number number = number_in(name);
-    if (digits.size() < number.digits) digits.insert(0, number.digits - digits.size(), '0');
-    return file_.parent_path() / name.replace(number.begin, number.end - number.begin, digits);
+    return names_ ? names_->at(frame_index) : file_;
 }
 
 }  // namespace pliant

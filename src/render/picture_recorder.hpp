@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
+#include "files/numbered_name.hpp"
 #include "render/image.hpp"
 #include "render/video_file.hpp"
 
@@ -12,8 +14,9 @@ namespace pliant {
 
 class PictureRecorder {
 public:
-    /// `x.png`: the last frame; `frames_%04d.png`: a file for each frame; `x.mp4`: a video.
-    /// Throws Error(bad_usage) for any other name, Error(bad_input) when the folder is missing or closed.
+    /// `x.png`: the last frame; `frames_%04d.png`: a file for each frame, 0 being the start; `x.mp4`: a video
+    /// from frame 1 on. Throws Error(bad_usage) for any other name, Error(bad_input) when the folder is
+    /// missing or closed.
     PictureRecorder(const std::filesystem::path& file, double frame_rate);
 
     /// Is this frame going to be kept? A frame that is not needs no drawing.
@@ -31,7 +34,8 @@ private:
     std::filesystem::path file_;
     double frame_rate_;
     Form form_ = Form::still;
-    std::unique_ptr<VideoFile> video_;  // from the first picture on, which has its size
+    std::optional<NumberedName> names_;  // of a sequence
+    std::unique_ptr<VideoFile> video_;   // from the first picture on, which has its size
 };
 
 }  // namespace pliant

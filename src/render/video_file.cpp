@@ -10,7 +10,7 @@
 
 #include <unistd.h>
 
-#include "mesh/atomic_file.hpp"
+#include "files/atomic_file.hpp"
 #include "pliant/error.hpp"
 #include "render/child_process.hpp"
 

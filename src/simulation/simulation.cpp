@@ -44,7 +44,8 @@ public:
             for (const float number : {v.x, v.y, v.z}) {
                 std::uint32_t bits = 0;
                 std::memcpy(&bits, &number, sizeof bits);
-                for (int byte = 0; byte < 4; ++byte) hash_ = (hash_ ^ (bits >> (8 * byte) & 0xff)) * 0x100000001b3ull;
+                for (int byte = 0; byte < 4; ++byte)
+                    hash_ = (hash_ ^ (bits >> (8 * byte) & 0xff)) * 0x100000001b3ull;
             }
     }
     std::uint64_t value() const { return hash_; }
@@ -64,9 +65,11 @@ std::string seconds(double s)
 
 class Simulation::Implementation {
 public:
-    Implementation(const Scene& given, const SimulationOptions& options) : scene(given), backend(resolve(options))
+    Implementation(const Scene& given, const SimulationOptions& options)
+        : scene(given), backend(resolve(options))
     {
         validate(scene);
+        cpu::choose_kernels(options.instruction_set);  // a name that does not exist is wrong on every backend
         models.reserve(scene.cloth_count());
         for (std::size_t c = 0; c < scene.cloth_count(); ++c) models.emplace_back(scene.cloth(c), scene);
         stable_step = std::numeric_limits<double>::infinity();
@@ -116,9 +119,10 @@ public:
         constexpr double most = 100'000;  // as many as a scene may ask for by itself
         const double frame = 1 / scene.time.frame_rate;
         if (scene.time.substeps == 0 && frame / stable_step > most)
-            throw Error(ErrorKind::bad_input, "time.substeps is 0 (automatic), and a stable step of " + seconds(stable_step) +
-                                                  " would take more than 100000 substeps per frame; use softer springs, "
-                                                  "less damping or heavier nodes");
+            throw Error(ErrorKind::bad_input,
+                        "time.substeps is 0 (automatic), and a stable step of " + seconds(stable_step) +
+                            " would take more than 100000 substeps per frame; use softer springs, "
+                            "less damping or heavier nodes");
     }
 
     void advance(double duration)
@@ -135,7 +139,8 @@ public:
         ++report.frames;
         take_measures();
         report.validation_messages = runner->validation_messages();
-        report.wall_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        report.wall_seconds +=
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
 
     void run_steps(std::uint32_t steps, double step)
@@ -175,8 +180,8 @@ public:
         placed.resize(colliders_rest ? count : count * steps);
         for (std::size_t s = 0; s * count < placed.size(); ++s)
             for (std::size_t k = 0; k < count; ++k)
-                placed[s * count + k] =
-                    placed_at(scene.colliders[k], report.simulated_seconds + static_cast<double>(s + 1) * step);
+                placed[s * count + k] = placed_at(
+                    scene.colliders[k], report.simulated_seconds + static_cast<double>(s + 1) * step);
     }
 
     FrameInput input(double step) const
@@ -236,7 +241,8 @@ public:
         if (resource == Resource::normal) update_drawing(cloth);
         runner->read(static_cast<std::uint32_t>(cloth), resource, parity, scratch);
         target.resize(scratch.size() / 3);
-        for (std::size_t i = 0; i < target.size(); ++i) target[i] = {scratch[3 * i], scratch[3 * i + 1], scratch[3 * i + 2]};
+        for (std::size_t i = 0; i < target.size(); ++i)
+            target[i] = {scratch[3 * i], scratch[3 * i + 1], scratch[3 * i + 2]};
         return target;
     }
 
@@ -273,7 +279,8 @@ public:
     }
 
     static constexpr std::uint64_t most_steps_at_once = 4096;
-    static constexpr std::size_t most_programs = 32;  ///< a host that varies its frames does not fill the memory
+    static constexpr std::size_t most_programs =
+        32;  ///< a host that varies its frames does not fill the memory
 
     struct ReadBack {  // empty vectors: not read since the last frame
         std::vector<Vec3> positions, velocities, normals;
@@ -295,6 +302,7 @@ public:
     std::vector<ReadBack> read_backs;
     std::vector<float> scratch;
     Report report;
+    double idle_seconds = 0;  ///< asked for after the run had ended
 };
 
 Simulation::Simulation(const Scene& scene, const SimulationOptions& options)
@@ -308,7 +316,11 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 void Simulation::advance(double duration) noexcept
 {
     Report& report = implementation_->report;
-    if (!report.finite || report.device_lost || !(duration > 0)) return;
+    if (!(duration > 0)) return;
+    if (!report.finite || report.device_lost) {
+        implementation_->idle_seconds += duration;
+        return;
+    }
     try {
         implementation_->advance(duration);
     } catch (const std::exception&) {
@@ -316,7 +328,10 @@ void Simulation::advance(double duration) noexcept
     }
 }
 
-double Simulation::time() const { return implementation_->report.simulated_seconds; }
+double Simulation::time() const
+{
+    return implementation_->report.simulated_seconds + implementation_->idle_seconds;
+}
 const Report& Simulation::report() const { return implementation_->report; }
 std::vector<PassTime> Simulation::pass_times() const { return implementation_->runner->pass_times(); }
 
@@ -330,7 +345,10 @@ std::span<const Vec3> Simulation::velocities(std::size_t cloth)
 {
     return implementation_->values(cloth, Resource::velocity);
 }
-std::span<const Vec3> Simulation::normals(std::size_t cloth) { return implementation_->values(cloth, Resource::normal); }
+std::span<const Vec3> Simulation::normals(std::size_t cloth)
+{
+    return implementation_->values(cloth, Resource::normal);
+}
 std::span<const float> Simulation::strains(std::size_t cloth) { return implementation_->strains(cloth); }
 std::span<const Triangle> Simulation::triangles(std::size_t cloth) const
 {
@@ -356,9 +374,15 @@ std::uint64_t Simulation::node_count() const
     return sum;
 }
 std::uint64_t Simulation::spring_count() const { return implementation_->total(&ClothModel::spring_count); }
-std::uint64_t Simulation::triangle_count() const { return implementation_->total(&ClothModel::triangle_count); }
+std::uint64_t Simulation::triangle_count() const
+{
+    return implementation_->total(&ClothModel::triangle_count);
+}
 
-double Simulation::step_length() const { return implementation_->steps_of(1 / scene().time.frame_rate).second; }
+double Simulation::step_length() const
+{
+    return implementation_->steps_of(1 / scene().time.frame_rate).second;
+}
 std::uint32_t Simulation::steps_per_frame() const
 {
     return static_cast<std::uint32_t>(implementation_->steps_of(1 / scene().time.frame_rate).first);
@@ -371,7 +395,8 @@ std::string Simulation::stability_warning() const
     if (step <= stable) return {};
     const double frame = 1 / scene().time.frame_rate;
     return "the step of " + seconds(step) + " exceeds the largest safe one of " + seconds(stable) +
-           " and the run may diverge: use at least " + std::to_string(static_cast<long long>(std::ceil(frame / stable))) +
+           " and the run may diverge: use at least " +
+           std::to_string(static_cast<long long>(std::ceil(frame / stable))) +
            " substeps per frame (time.substeps), softer springs or heavier nodes";
 }
 
@@ -385,11 +410,14 @@ std::vector<DeviceListing> list_devices()
         devices.push_back({Backend::vulkan, device.index, device.name, device.kind,
                            "Vulkan " + std::to_string(VK_API_VERSION_MAJOR(device.api_version)) + "." +
                                std::to_string(VK_API_VERSION_MINOR(device.api_version)) + ", memory " +
-                               mebibytes(device.memory) + ", largest buffer " + mebibytes(device.max_buffer_range) +
-                               ", shared memory " + std::to_string(device.max_shared_memory >> 10) + " KiB"});
+                               mebibytes(device.memory) + ", largest buffer " +
+                               mebibytes(device.max_buffer_range) + ", shared memory " +
+                               std::to_string(device.max_shared_memory >> 10) + " KiB"});
     std::string sets;
-    for (const cpu::Kernels* kernels : cpu::available_kernels()) sets += (sets.empty() ? "" : ", ") + std::string(kernels->name);
-    devices.push_back({Backend::cpu, 0, "CPU", cpu::available_kernels().back()->name, "instruction sets " + sets});
+    for (const cpu::Kernels* kernels : cpu::available_kernels())
+        sets += (sets.empty() ? "" : ", ") + std::string(kernels->name);
+    devices.push_back(
+        {Backend::cpu, 0, "CPU", cpu::available_kernels().back()->name, "instruction sets " + sets});
     devices.push_back({Backend::reference, 0, "CPU", "serial, double", "the oracle of the tests"});
     return devices;
 }

@@ -2,13 +2,14 @@
 
 namespace pliant {
 
-std::uint32_t append_mass_spring_frame(std::span<const ClothModel> cloths, std::uint32_t steps, std::uint32_t parity,
-                                       std::vector<Call>& calls)
+std::uint32_t append_mass_spring_frame(std::span<const ClothModel> cloths, std::uint32_t steps,
+                                       std::uint32_t parity, std::vector<Call>& calls)
 {
     for (std::uint32_t step = 0; step < steps; ++step, parity ^= 1)
         for (std::uint32_t c = 0; c < cloths.size(); ++c) {
             const ClothModel& cloth = cloths[c];
-            if (cloth.feels_air()) calls.push_back({cloth.is_sheet() ? Pass::sheet_wind : Pass::mesh_wind, c, parity, step});
+            if (cloth.feels_air())
+                calls.push_back({cloth.is_sheet() ? Pass::sheet_wind : Pass::mesh_wind, c, parity, step});
             if (cloth.node_centric()) {
                 calls.push_back({Pass::sheet_step, c, parity, step});
             } else {
@@ -24,13 +25,16 @@ void append_measures(std::span<const ClothModel> cloths, std::uint32_t parity, s
                      std::vector<Call>& calls)
 {
     for (std::uint32_t c = 0; c < cloths.size(); ++c) {
-        calls.push_back({cloths[c].node_centric() ? Pass::sheet_measure : Pass::list_measure, c, parity, step});
+        calls.push_back(
+            {cloths[c].node_centric() ? Pass::sheet_measure : Pass::list_measure, c, parity, step});
         const std::size_t levels = MeasureTree(cloths[c].node_count()).levels.size();
-        for (std::uint32_t level = 1; level < levels; ++level) calls.push_back({Pass::measure_merge, c, parity, level});
+        for (std::uint32_t level = 1; level < levels; ++level)
+            calls.push_back({Pass::measure_merge, c, parity, level});
     }
 }
 
-void append_drawing(const ClothModel& cloth, std::uint32_t index, std::uint32_t parity, std::vector<Call>& calls)
+void append_drawing(const ClothModel& cloth, std::uint32_t index, std::uint32_t parity,
+                    std::vector<Call>& calls)
 {
     calls.push_back({cloth.is_sheet() ? Pass::sheet_normal : Pass::mesh_normal, index, parity, 0});
     calls.push_back({cloth.node_centric() ? Pass::sheet_strain : Pass::list_strain, index, parity, 0});

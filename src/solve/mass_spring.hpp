@@ -9,16 +9,17 @@
 
 namespace pliant {
 
-/// Appends one frame: `steps` symplectic Euler steps of every cloth, starting from the state copy `parity`, then the
-/// measures of the state that they reach. Returns the parity of that state.
-std::uint32_t append_mass_spring_frame(std::span<const ClothModel> cloths, std::uint32_t steps, std::uint32_t parity,
-                                       std::vector<Call>& calls);
+/// Appends one frame: `steps` symplectic Euler steps of every cloth, starting from the state copy `parity`,
+/// then the measures of the state that they reach. Returns the parity of that state.
+std::uint32_t append_mass_spring_frame(std::span<const ClothModel> cloths, std::uint32_t steps,
+                                       std::uint32_t parity, std::vector<Call>& calls);
 
 /// Appends the measures of the state copy `parity`, reduced to one value for each cloth.
 void append_measures(std::span<const ClothModel> cloths, std::uint32_t parity, std::uint32_t step,
                      std::vector<Call>& calls);
 
 /// Appends what drawing one cloth needs beside its positions: normals and strains.
-void append_drawing(const ClothModel& cloth, std::uint32_t index, std::uint32_t parity, std::vector<Call>& calls);
+void append_drawing(const ClothModel& cloth, std::uint32_t index, std::uint32_t parity,
+                    std::vector<Call>& calls);
 
 }  // namespace pliant

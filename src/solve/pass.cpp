@@ -11,8 +11,8 @@ using enum PassSize;
 // READS and WRITES of each pass, stored once.
 #define READS(...) std::to_array<Resource>({__VA_ARGS__})
 #define WRITES(...) std::to_array<Resource>({__VA_ARGS__})
-#define PASS(name, size, reads, writes)    \
-    constexpr auto name##_reads = reads;   \
+#define PASS(name, size, reads, writes)  \
+    constexpr auto name##_reads = reads; \
     constexpr auto name##_writes = writes;
 #include "solve/passes.def"
 #undef PASS

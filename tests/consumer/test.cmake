@@ -1,6 +1,6 @@
 # Installs a build of Pliant into an empty folder, then builds and runs the consumer with nothing but that.
-#   cmake -DBUILD=build/release -DSOURCE=tests/consumer -DCOMPILER=c++ -DBUILD_TYPE=Release [-DFLAGS=address,undefined]
-#         -P test.cmake
+#   cmake -DBUILD=build/release -DSOURCE=tests/consumer -DCOMPILER=c++ -DBUILD_TYPE=Release
+#         [-DFLAGS=address,undefined] -P test.cmake
 # FLAGS are the sanitizers of the build, if any.
 cmake_minimum_required(VERSION 3.25)
 
@@ -15,7 +15,8 @@ set(prefix ${work}/prefix)
 file(REMOVE_RECURSE ${work})
 
 function(step what)
-    execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output TIMEOUT 300)
+    execute_process(COMMAND ${ARGN} TIMEOUT 300
+                    RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
     if(NOT result EQUAL 0)
         message(FATAL_ERROR "the consumer test cannot ${what} (${result}):\n${output}")
     endif()

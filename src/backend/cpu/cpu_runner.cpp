@@ -1,6 +1,6 @@
-// SIMD and threads: the hot passes by kernels chosen for this machine, the others node by node, all of them divided
-// into parts that depend on nothing but their size. A node's result does not depend on the part it falls into, so
-// neither the number of threads nor the width of a pack changes a bit.
+// SIMD and threads: the hot passes by kernels chosen for this machine, the others node by node, all of them
+// divided into parts that depend on nothing but their size. A node's result does not depend on the part it
+// falls into, so neither the number of threads nor the width of a pack changes a bit.
 #include <algorithm>
 #include <chrono>
 #include <utility>
@@ -60,9 +60,9 @@ struct CpuCloth {
 /// One call with all it needs; `part` runs a piece of it.
 struct Work {
     enum class Unit { rows, springs, values } unit = Unit::values;
-    std::size_t size = 0;       ///< in units
-    std::size_t multiple = 1;   ///< parts begin at multiples of this
-    std::size_t weight = 1;     ///< nodes or springs in a unit, for the decision how many threads are worth it
+    std::size_t size = 0;      ///< in units
+    std::size_t multiple = 1;  ///< parts begin at multiples of this
+    std::size_t weight = 1;    ///< nodes or springs in a unit, for the decision how many threads are worth it
     const Call* call = nullptr;
     CpuCloth* cloth = nullptr;
     const Kernels* kernels = nullptr;
@@ -136,9 +136,9 @@ private:
         PlainCloth<float>& plain = cloth->plain;
         const SpringArrays& list = cloth->springs;
         kernels->spring_forces({pointers(std::as_const(plain.position[call->parity])),
-                                pointers(std::as_const(plain.velocity[call->parity])), pointers(plain.spring_force),
-                                list.first.data(), list.second.data(), list.rest_length.data(), list.stiffness.data(),
-                                list.damping.data()},
+                                pointers(std::as_const(plain.velocity[call->parity])),
+                                pointers(plain.spring_force), list.first.data(), list.second.data(),
+                                list.rest_length.data(), list.stiffness.data(), list.damping.data()},
                                begin, end);
     }
 };
@@ -177,7 +177,8 @@ public:
             clock_.add(call.pass, spent.count());
         }
     }
-    void read(std::uint32_t cloth, Resource resource, std::uint32_t parity, std::vector<float>& values) override
+    void read(std::uint32_t cloth, Resource resource, std::uint32_t parity,
+              std::vector<float>& values) override
     {
         cloths_[cloth].plain.read(resource, parity, values);
     }
@@ -218,7 +219,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<PassRunner> make_cpu_runner(std::span<const ClothModel> cloths, const SimulationOptions& options)
+std::unique_ptr<PassRunner> make_cpu_runner(std::span<const ClothModel> cloths,
+                                            const SimulationOptions& options)
 {
     return std::make_unique<CpuRunner>(cloths, options);
 }

@@ -17,7 +17,8 @@ namespace {
 class TbbJobs final : public JobSystem {
 public:
     explicit TbbJobs(unsigned threads)
-        : threads_(threads), control_(tbb::global_control::max_allowed_parallelism, threads),
+        : threads_(threads),
+          control_(tbb::global_control::max_allowed_parallelism, threads),
           arena_(static_cast<int>(threads))
     {
     }
@@ -25,7 +26,8 @@ public:
     void run(unsigned count, void (*task)(void*, unsigned), void* context) override
     {
         arena_.execute([&] {
-            tbb::parallel_for(0u, count, 1u, [&](unsigned index) { task(context, index); }, tbb::static_partitioner());
+            tbb::parallel_for(
+                0u, count, 1u, [&](unsigned index) { task(context, index); }, tbb::static_partitioner());
         });
     }
 
@@ -39,7 +41,8 @@ private:
 
 std::unique_ptr<JobSystem> make_job_system(unsigned threads)
 {
-    return std::make_unique<TbbJobs>(threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency()));
+    return std::make_unique<TbbJobs>(threads > 0 ? threads
+                                                 : std::max(1u, std::thread::hardware_concurrency()));
 }
 
 #if defined(__x86_64__)

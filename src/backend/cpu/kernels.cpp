@@ -34,7 +34,8 @@ const Kernels& choose_kernels(const std::string& name)
         if (kernels->name == name) return *kernels;
         names += (names.empty() ? "" : ", ") + std::string(kernels->name);
     }
-    throw Error(ErrorKind::bad_usage, "the instruction set '" + name + "' is not available: this machine has " + names);
+    throw Error(ErrorKind::bad_usage,
+                "the instruction set '" + name + "' is not available: this machine has " + names);
 }
 
 }  // namespace pliant::cpu

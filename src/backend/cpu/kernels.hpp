@@ -30,8 +30,8 @@ struct SheetArguments {
     std::size_t collider_count;
 };
 
-/// Forces of springs, whose ends are offsets into the planes. All arrays are padded to whole packs of 16 with springs
-/// of no length, and `first` and `end` of a call are multiples of 16.
+/// Forces of springs, whose ends are offsets into the planes. All arrays are padded to whole packs of 16 with
+/// springs of no length, and `first` and `end` of a call are multiples of 16.
 struct SpringArguments {
     ConstVectors position, velocity;
     Vectors force;

@@ -1,6 +1,7 @@
-// The kernels themselves. Included by one file per instruction set, which defines PLIANT_LANES and PLIANT_KERNELS.
-// Everything is in an unnamed namespace and uses nothing of the standard library: what is compiled here with wide
-// instructions must not be shared with files that run before the instruction set is known.
+// The kernels themselves. Included by one file per instruction set, which defines PLIANT_LANES and
+// PLIANT_KERNELS. Everything is in an unnamed namespace and uses nothing of the standard library: what is
+// compiled here with wide instructions must not be shared with files that run before the instruction set is
+// known.
 #include "backend/cpu/kernels.hpp"
 #include "backend/cpu/pack.hpp"
 
@@ -60,7 +61,8 @@ struct Block {
 inline std::ptrdiff_t offset_of(const NodeLayout& layout, std::ptrdiff_t row, std::ptrdiff_t column)
 {
     const auto border = static_cast<std::ptrdiff_t>(NodeLayout::border_rows);
-    return (row + border) * static_cast<std::ptrdiff_t>(layout.stride) + static_cast<std::ptrdiff_t>(NodeLayout::pad) + column;
+    return (row + border) * static_cast<std::ptrdiff_t>(layout.stride) +
+           static_cast<std::ptrdiff_t>(NodeLayout::pad) + column;
 }
 
 /// Visits a sheet's rows in packs: f(block).
@@ -80,7 +82,8 @@ template <bool interior>
 inline Vector spring_forces_on(const SheetArguments& a, const Block& block, const Vector& x, const Vector& v)
 {
     const StepConstants<float>& c = *a.constants;
-    const auto rows = static_cast<std::ptrdiff_t>(a.layout->rows), columns = static_cast<std::ptrdiff_t>(a.layout->columns);
+    const auto rows = static_cast<std::ptrdiff_t>(a.layout->rows),
+               columns = static_cast<std::ptrdiff_t>(a.layout->columns);
     const auto stride = static_cast<std::ptrdiff_t>(a.layout->stride);
     const Vector zero{Number(0.0f), Number(0.0f), Number(0.0f)};
     Vector force = zero;
@@ -92,7 +95,8 @@ inline Vector spring_forces_on(const SheetArguments& a, const Block& block, cons
         const std::ptrdiff_t other = block.offset + neighbour.row_offset * stride + neighbour.column_offset;
         const auto k = static_cast<std::size_t>(neighbour.spring_class);
         Vector f = L::spring_force(x, load(a.position, other), v, load(a.velocity, other),
-                                   Number(c.rest_lengths[neighbour.rest]), Number(c.stiffness[k]), Number(c.damping[k]));
+                                   Number(c.rest_lengths[neighbour.rest]), Number(c.stiffness[k]),
+                                   Number(c.damping[k]));
         if (!interior && neighbour.column_offset != 0)
             f = L::choose(lanes_on_sheet(block.column + neighbour.column_offset, columns), f, zero);
         force = force + f;
@@ -134,7 +138,8 @@ void sheet_wind(const SheetArguments& a, std::size_t first_row, std::size_t end_
     const StepConstants<float>& c = *a.constants;
     const Vector wind = broadcast(c.wind);
     const Number density(c.air_density), drag(c.drag), lift(c.lift);
-    const auto rows = static_cast<std::ptrdiff_t>(a.layout->rows), columns = static_cast<std::ptrdiff_t>(a.layout->columns);
+    const auto rows = static_cast<std::ptrdiff_t>(a.layout->rows),
+               columns = static_cast<std::ptrdiff_t>(a.layout->columns);
     const auto stride = static_cast<std::ptrdiff_t>(a.layout->stride);
     const Vector zero{Number(0.0f), Number(0.0f), Number(0.0f)};
     for_each_block(a, first_row, end_row, [&](const Block& block) {
@@ -143,11 +148,13 @@ void sheet_wind(const SheetArguments& a, std::size_t first_row, std::size_t end_
             const std::ptrdiff_t quad_row = block.row + t.quad_row;
             if (quad_row < 0 || quad_row + 1 >= rows) continue;
             const std::ptrdiff_t quad = block.offset + t.quad_row * stride + t.quad_column;
-            const std::ptrdiff_t i = t.lower ? quad + 1 : quad, j = quad + stride, k = t.lower ? j + 1 : quad + 1;
+            const std::ptrdiff_t i = t.lower ? quad + 1 : quad, j = quad + stride,
+                                 k = t.lower ? j + 1 : quad + 1;
             Vector f = L::wind_force(load(a.position, i), load(a.position, j), load(a.position, k),
-                                     load(a.velocity, i), load(a.velocity, j), load(a.velocity, k), wind, density, drag,
-                                     lift);
-            if (!block.interior) f = L::choose(lanes_on_sheet(block.column + t.quad_column, columns - 1), f, zero);
+                                     load(a.velocity, i), load(a.velocity, j), load(a.velocity, k), wind,
+                                     density, drag, lift);
+            if (!block.interior)
+                f = L::choose(lanes_on_sheet(block.column + t.quad_column, columns - 1), f, zero);
             force = force + f;
         }
         // Padding must stay zero: the last pack of a row reaches beyond the sheet.
@@ -159,7 +166,8 @@ void sheet_wind(const SheetArguments& a, std::size_t first_row, std::size_t end_
 void spring_forces(const SpringArguments& a, std::size_t first, std::size_t end)
 {
     const auto gather = [](const ConstVectors& from, const std::uint32_t* index) {
-        return Vector{Number::gather(from.x, index), Number::gather(from.y, index), Number::gather(from.z, index)};
+        return Vector{Number::gather(from.x, index), Number::gather(from.y, index),
+                      Number::gather(from.z, index)};
     };
     for (std::size_t s = first; s < end; s += width)
         store(a.force, static_cast<std::ptrdiff_t>(s),

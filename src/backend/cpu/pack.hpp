@@ -1,6 +1,6 @@
-// W floats that are computed at once: a thin layer over the compilers' vector extension, which turns into SSE, AVX,
-// AVX-512 or NEON instructions by the flags of the file that includes it. Every width belongs to one such file, so
-// that no instruction set leaks into another through shared templates.
+// W floats that are computed at once: a thin layer over the compilers' vector extension, which turns into
+// SSE, AVX, AVX-512 or NEON instructions by the flags of the file that includes it. Every width belongs to
+// one such file, so that no instruction set leaks into another through shared templates.
 #pragma once
 
 #include <cstdint>
@@ -13,16 +13,17 @@
 
 namespace pliant {
 
-/// The compiler's vector types. Spelled out, because GCC applies vector_size too late when the size is a parameter.
+/// The compiler's vector types. Spelled out, because GCC applies vector_size too late when the size is a
+/// parameter.
 template <int W>
 struct LaneTypes;
-#define PLIANT_LANE_TYPES(W)                                                                   \
-    template <>                                                                                \
-    struct LaneTypes<W> {                                                                      \
-        typedef float Floats __attribute__((vector_size(W * 4)));                              \
+#define PLIANT_LANE_TYPES(W)                                                                      \
+    template <>                                                                                   \
+    struct LaneTypes<W> {                                                                         \
+        typedef float Floats __attribute__((vector_size(W * 4)));                                 \
         typedef float UnalignedFloats __attribute__((vector_size(W * 4), aligned(4), may_alias)); \
-        typedef std::int32_t Integers __attribute__((vector_size(W * 4)));                     \
-        typedef std::uint32_t Bits __attribute__((vector_size(W * 4)));                        \
+        typedef std::int32_t Integers __attribute__((vector_size(W * 4)));                        \
+        typedef std::uint32_t Bits __attribute__((vector_size(W * 4)));                           \
     };
 PLIANT_LANE_TYPES(4)
 PLIANT_LANE_TYPES(8)

@@ -32,13 +32,21 @@ StepConstants<T>::StepConstants(const ClothModel& model, double step_length)
 
 template <class T>
 PlainCloth<T>::PlainCloth(const ClothModel& cloth)
-    : model(cloth), layout(cloth.sheet ? cloth.sheet->rows : 1, cloth.sheet ? cloth.sheet->columns : cloth.node_count()),
-      external_force(layout.size), spring_force(cloth.springs.size()), normal(layout.size), inverse_mass(layout.size),
-      strain(layout.size), tree(cloth.node_count())
+    : model(cloth),
+      layout(cloth.sheet ? cloth.sheet->rows : 1, cloth.sheet ? cloth.sheet->columns : cloth.node_count()),
+      external_force(layout.size),
+      spring_force(cloth.springs.size()),
+      normal(layout.size),
+      inverse_mass(layout.size),
+      strain(layout.size),
+      tree(cloth.node_count())
 {
-    for (auto* planes : {&position[0], &position[1], &velocity[0], &velocity[1]}) *planes = Planes<T>(layout.size);
+    for (auto* planes : {&position[0], &position[1], &velocity[0], &velocity[1]})
+        *planes = Planes<T>(layout.size);
     measures.assign(tree.value_count, L::measure_of_nothing());
-    const auto vector = [](Vec3 a) { return Vector{static_cast<T>(a.x), static_cast<T>(a.y), static_cast<T>(a.z)}; };
+    const auto vector = [](Vec3 a) {
+        return Vector{static_cast<T>(a.x), static_cast<T>(a.y), static_cast<T>(a.z)};
+    };
     for (std::size_t i = 0; i < model.node_count(); ++i) {
         const std::size_t offset = layout.offset(i);
         for (auto& planes : position) planes.set(offset, vector(model.positions[i]));
@@ -56,8 +64,8 @@ std::size_t PlainCloth<T>::size_of(const Call& call) const
 }
 
 template <class T>
-void PlainCloth<T>::run(const Call& call, const StepConstants<T>& constants, std::span<const Collider> colliders,
-                        std::size_t begin, std::size_t end)
+void PlainCloth<T>::run(const Call& call, const StepConstants<T>& constants,
+                        std::span<const Collider> colliders, std::size_t begin, std::size_t end)
 {
     switch (call.pass) {
         case Pass::sheet_wind: return sheet_wind(call, constants, begin, end);
@@ -87,7 +95,8 @@ void PlainCloth<T>::for_each_node(std::size_t begin, std::size_t end, Function&&
     }
 }
 
-/// The springs of a sheet's node from the first-th on, in canonical order: f(neighbour, offset of the other node).
+/// The springs of a sheet's node from the first-th on, in canonical order: f(neighbour, offset of the other
+/// node).
 template <class T>
 template <class Function>
 void PlainCloth<T>::for_each_sheet_neighbour(const Place& place, std::size_t first, Function&& f) const
@@ -103,7 +112,8 @@ void PlainCloth<T>::for_each_sheet_neighbour(const Place& place, std::size_t fir
     }
 }
 
-/// The up to six triangles around a sheet's node, in the order of ClothModel::triangles: f(offsets of the corners).
+/// The up to six triangles around a sheet's node, in the order of ClothModel::triangles: f(offsets of the
+/// corners).
 template <class T>
 template <class Function>
 void PlainCloth<T>::for_each_sheet_triangle(const Place& place, Function&& f) const
@@ -111,7 +121,7 @@ void PlainCloth<T>::for_each_sheet_triangle(const Place& place, Function&& f) co
     const std::size_t stride = layout.stride, x = place.offset;
     const bool above = place.row > 0, below = place.row + 1 < layout.rows;
     const bool left = place.column > 0, right = place.column + 1 < layout.columns;
-    const auto upper = [&](std::size_t a) { f(a, a + stride, a + 1); };               // (a, c, b) of the quad at a
+    const auto upper = [&](std::size_t a) { f(a, a + stride, a + 1); };  // (a, c, b) of the quad at a
     const auto lower = [&](std::size_t a) { f(a + 1, a + stride, a + stride + 1); };  // (b, c, d)
     if (above && left) lower(x - stride - 1);
     if (above && right) upper(x - stride), lower(x - stride);
@@ -120,8 +130,8 @@ void PlainCloth<T>::for_each_sheet_triangle(const Place& place, Function&& f) co
 }
 
 template <class T>
-void PlainCloth<T>::finish_step(const Call& call, const StepConstants<T>& c, std::span<const Collider> colliders,
-                                const Place& place, Vector force)
+void PlainCloth<T>::finish_step(const Call& call, const StepConstants<T>& c,
+                                std::span<const Collider> colliders, const Place& place, Vector force)
 {
     using Motion = typename L::Motion;
     const T w = inverse_mass[place.offset];
@@ -129,14 +139,15 @@ void PlainCloth<T>::finish_step(const Call& call, const StepConstants<T>& c, std
     Motion next;
     next.velocity = L::velocity_step(now.velocity, force, w, c.gravity, c.decay, c.dt);
     next.position = L::position_step(now.position, next.velocity, c.dt);
-    for (const Collider& collider : colliders) next = L::contact_step(now, next, collider, c.thickness, w, c.dt);
+    for (const Collider& collider : colliders)
+        next = L::contact_step(now, next, collider, c.thickness, w, c.dt);
     position[1 - call.parity].set(place.offset, next.position);
     velocity[1 - call.parity].set(place.offset, next.velocity);
 }
 
 template <class T>
-void PlainCloth<T>::sheet_step(const Call& call, const StepConstants<T>& c, std::span<const Collider> colliders,
-                               std::size_t begin, std::size_t end)
+void PlainCloth<T>::sheet_step(const Call& call, const StepConstants<T>& c,
+                               std::span<const Collider> colliders, std::size_t begin, std::size_t end)
 {
     const Planes<T>& x = position[call.parity];
     const Planes<T>& v = velocity[call.parity];
@@ -144,15 +155,17 @@ void PlainCloth<T>::sheet_step(const Call& call, const StepConstants<T>& c, std:
         Vector force{T(0), T(0), T(0)};
         for_each_sheet_neighbour(place, 0, [&](const SheetNeighbour& neighbour, std::size_t other) {
             const auto k = static_cast<std::size_t>(neighbour.spring_class);
-            force = force + L::spring_force(x.get(place.offset), x.get(other), v.get(place.offset), v.get(other),
-                                            c.rest_lengths[neighbour.rest], c.stiffness[k], c.damping[k]);
+            force =
+                force + L::spring_force(x.get(place.offset), x.get(other), v.get(place.offset), v.get(other),
+                                        c.rest_lengths[neighbour.rest], c.stiffness[k], c.damping[k]);
         });
         finish_step(call, c, colliders, place, force + external_force.get(place.offset));
     });
 }
 
 template <class T>
-void PlainCloth<T>::spring_forces(const Call& call, const StepConstants<T>& c, std::size_t begin, std::size_t end)
+void PlainCloth<T>::spring_forces(const Call& call, const StepConstants<T>& c, std::size_t begin,
+                                  std::size_t end)
 {
     const Planes<T>& x = position[call.parity];
     const Planes<T>& v = velocity[call.parity];
@@ -160,14 +173,15 @@ void PlainCloth<T>::spring_forces(const Call& call, const StepConstants<T>& c, s
         const Spring& spring = model.springs[s];
         const std::size_t i = layout.offset(spring.i), j = layout.offset(spring.j);
         const auto k = static_cast<std::size_t>(spring.spring_class);
-        spring_force.set(s, L::spring_force(x.get(i), x.get(j), v.get(i), v.get(j), static_cast<T>(spring.rest_length),
-                                            c.stiffness[k], c.damping[k]));
+        spring_force.set(
+            s, L::spring_force(x.get(i), x.get(j), v.get(i), v.get(j), static_cast<T>(spring.rest_length),
+                               c.stiffness[k], c.damping[k]));
     }
 }
 
 template <class T>
-void PlainCloth<T>::list_step(const Call& call, const StepConstants<T>& c, std::span<const Collider> colliders,
-                              std::size_t begin, std::size_t end)
+void PlainCloth<T>::list_step(const Call& call, const StepConstants<T>& c,
+                              std::span<const Collider> colliders, std::size_t begin, std::size_t end)
 {
     for_each_node(begin, end, [&](const Place& place) {
         Vector force{T(0), T(0), T(0)};
@@ -180,7 +194,8 @@ void PlainCloth<T>::list_step(const Call& call, const StepConstants<T>& c, std::
 }
 
 template <class T>
-void PlainCloth<T>::sheet_wind(const Call& call, const StepConstants<T>& c, std::size_t begin, std::size_t end)
+void PlainCloth<T>::sheet_wind(const Call& call, const StepConstants<T>& c, std::size_t begin,
+                               std::size_t end)
 {
     const Planes<T>& x = position[call.parity];
     const Planes<T>& v = velocity[call.parity];
@@ -244,21 +259,24 @@ void PlainCloth<T>::mesh_normals(const Call& call, std::size_t begin, std::size_
     for_each_node(begin, end, [&](const Place& place) {
         Vector sum{T(0), T(0), T(0)};
         for (const std::uint32_t t : model.node_triangles.row(place.node))
-            sum = sum + L::triangle_normal(x.get(layout.offset(triangles[t][0])), x.get(layout.offset(triangles[t][1])),
+            sum = sum + L::triangle_normal(x.get(layout.offset(triangles[t][0])),
+                                           x.get(layout.offset(triangles[t][1])),
                                            x.get(layout.offset(triangles[t][2])));
         normal.set(place.offset, L::direction(sum));
     });
 }
 
 template <class T>
-void PlainCloth<T>::sheet_strains(const Call& call, const StepConstants<T>& c, std::size_t begin, std::size_t end)
+void PlainCloth<T>::sheet_strains(const Call& call, const StepConstants<T>& c, std::size_t begin,
+                                  std::size_t end)
 {
     const Planes<T>& x = position[call.parity];
     for_each_node(begin, end, [&](const Place& place) {
         T most = T(-1);
         for_each_sheet_neighbour(place, 0, [&](const SheetNeighbour& neighbour, std::size_t other) {
             if (neighbour.spring_class == SpringClass::bend) return;
-            most = L::largest(L::spring_stretch(x.get(place.offset), x.get(other), c.rest_lengths[neighbour.rest]), most);
+            most = L::largest(
+                L::spring_stretch(x.get(place.offset), x.get(other), c.rest_lengths[neighbour.rest]), most);
         });
         strain[place.offset] = most;
     });
@@ -290,7 +308,8 @@ typename PlainCloth<T>::Measure PlainCloth<T>::measured_springs(const Call& call
     Measure m = L::measure_of_nothing();
     const auto add = [&](std::size_t other, T rest_length, SpringClass spring_class) {
         m = L::measure_spring(m, x.get(place.offset), x.get(other), rest_length,
-                              c.stiffness[static_cast<std::size_t>(spring_class)], spring_class != SpringClass::bend);
+                              c.stiffness[static_cast<std::size_t>(spring_class)],
+                              spring_class != SpringClass::bend);
     };
     if (model.node_centric()) {
         for_each_sheet_neighbour(place, std::size(sheet_neighbours) / 2,
@@ -308,8 +327,8 @@ typename PlainCloth<T>::Measure PlainCloth<T>::measured_springs(const Call& call
 }
 
 template <class T>
-void PlainCloth<T>::measure_blocks(const Call& call, const StepConstants<T>& c, std::span<const Collider> colliders,
-                                   std::size_t begin, std::size_t end)
+void PlainCloth<T>::measure_blocks(const Call& call, const StepConstants<T>& c,
+                                   std::span<const Collider> colliders, std::size_t begin, std::size_t end)
 {
     for (std::size_t block = begin; block < end; ++block) {
         Measure values[block_size];
@@ -318,11 +337,12 @@ void PlainCloth<T>::measure_blocks(const Call& call, const StepConstants<T>& c, 
         for_each_node(first, first + count, [&](const Place& place) {
             const Vector x = position[call.parity].get(place.offset);
             Measure m = measured_springs(call, c, place);
-            m = L::measure_node(m, x, velocity[call.parity].get(place.offset), static_cast<T>(model.masses[place.node]),
-                                c.gravity_direction);
+            m = L::measure_node(m, x, velocity[call.parity].get(place.offset),
+                                static_cast<T>(model.masses[place.node]), c.gravity_direction);
             if (inverse_mass[place.offset] > T(0))
                 for (const Collider& collider : colliders)
-                    m.max_penetration = L::largest(c.thickness - L::collider_gap(collider, x).w, m.max_penetration);
+                    m.max_penetration =
+                        L::largest(c.thickness - L::collider_gap(collider, x).w, m.max_penetration);
             values[place.node - first] = m;
         });
         std::fill(values + count, values + block_size, L::measure_of_nothing());
@@ -379,8 +399,8 @@ void PlainCloth<T>::read(Resource resource, std::uint32_t parity, std::vector<fl
             return;
         case Resource::measures:
             for (const Measure& m : measures)
-                push(m.max_stretch, m.max_penetration, m.max_speed2, m.stretch_sum, m.kinetic_energy, m.elastic_energy,
-                     m.height_moment, m.non_finite);
+                push(m.max_stretch, m.max_penetration, m.max_speed2, m.stretch_sum, m.kinetic_energy,
+                     m.elastic_energy, m.height_moment, m.non_finite);
             return;
         case Resource::colliders: return;  // an input, nothing to read
     }

@@ -1,5 +1,5 @@
-// One cloth on the host and every pass over it, one node at a time: PlainCloth<double> is the reference backend,
-// PlainCloth<float> the state of the CPU backend, which replaces the hot passes by its SIMD kernels.
+// One cloth on the host and every pass over it, one node at a time: PlainCloth<double> is the reference
+// backend, PlainCloth<float> the state of the CPU backend, which replaces the hot passes by its SIMD kernels.
 #pragma once
 
 #include <cstdint>
@@ -86,7 +86,8 @@ private:
     template <class Function>
     void for_each_sheet_triangle(const Place& place, Function&& f) const;
 
-    void sheet_step(const Call&, const StepConstants<T>&, std::span<const Collider>, std::size_t, std::size_t);
+    void sheet_step(const Call&, const StepConstants<T>&, std::span<const Collider>, std::size_t,
+                    std::size_t);
     void list_step(const Call&, const StepConstants<T>&, std::span<const Collider>, std::size_t, std::size_t);
     void spring_forces(const Call&, const StepConstants<T>&, std::size_t, std::size_t);
     void sheet_wind(const Call&, const StepConstants<T>&, std::size_t, std::size_t);
@@ -95,11 +96,13 @@ private:
     void mesh_normals(const Call&, std::size_t, std::size_t);
     void sheet_strains(const Call&, const StepConstants<T>&, std::size_t, std::size_t);
     void list_strains(const Call&, std::size_t, std::size_t);
-    void measure_blocks(const Call&, const StepConstants<T>&, std::span<const Collider>, std::size_t, std::size_t);
+    void measure_blocks(const Call&, const StepConstants<T>&, std::span<const Collider>, std::size_t,
+                        std::size_t);
     void merge_blocks(const Call&, std::size_t, std::size_t);
 
     Measure measured_springs(const Call&, const StepConstants<T>&, const Place&) const;
-    void finish_step(const Call&, const StepConstants<T>&, std::span<const Collider>, const Place&, Vector force);
+    void finish_step(const Call&, const StepConstants<T>&, std::span<const Collider>, const Place&,
+                     Vector force);
     static Measure merged(Measure* values);
 };
 

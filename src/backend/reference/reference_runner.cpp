@@ -27,7 +27,8 @@ public:
             clock_.add(call.pass, spent.count());
         }
     }
-    void read(std::uint32_t cloth, Resource resource, std::uint32_t parity, std::vector<float>& values) override
+    void read(std::uint32_t cloth, Resource resource, std::uint32_t parity,
+              std::vector<float>& values) override
     {
         cloths_[cloth].read(resource, parity, values);
     }

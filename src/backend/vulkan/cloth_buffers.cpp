@@ -28,8 +28,9 @@ vk::raii::DescriptorSetLayout make_cloth_layout(const Device& device)
 {
     std::vector<vk::DescriptorSetLayoutBinding> bindings;
     for (std::uint32_t b = 0; b < binding_count; ++b)
-        bindings.emplace_back(b, b == 0 ? vk::DescriptorType::eUniformBuffer : vk::DescriptorType::eStorageBuffer, 1,
-                              vk::ShaderStageFlagBits::eCompute);
+        bindings.emplace_back(
+            b, b == 0 ? vk::DescriptorType::eUniformBuffer : vk::DescriptorType::eStorageBuffer, 1,
+            vk::ShaderStageFlagBits::eCompute);
     return {device.handle(), vk::DescriptorSetLayoutCreateInfo({}, bindings)};
 }
 
@@ -40,12 +41,15 @@ Buffer ClothBuffers::filled(const Device& device, const void* data, std::size_t 
     return buffer;
 }
 
-ClothBuffers::ClothBuffers(const Device& device, const ClothModel& model, const vk::raii::DescriptorSetLayout& layout)
+ClothBuffers::ClothBuffers(const Device& device, const ClothModel& model,
+                           const vk::raii::DescriptorSetLayout& layout)
     : model_(&model), tree_(model.node_count())
 {
     const std::size_t nodes = model.node_count();
     std::vector<Float4> values(nodes);
-    const auto node_buffer = [&](const char* name) { return filled(device, values.data(), nodes * sizeof(Float4), name); };
+    const auto node_buffer = [&](const char* name) {
+        return filled(device, values.data(), nodes * sizeof(Float4), name);
+    };
     for (std::size_t i = 0; i < nodes; ++i)
         values[i] = float4(model.positions[i], static_cast<float>(model.inverse_masses[i]));
     for (auto& buffer : position_) buffer = node_buffer("position");
@@ -55,39 +59,48 @@ ClothBuffers::ClothBuffers(const Device& device, const ClothModel& model, const 
     parameters_ = device.make_buffer(sizeof(Parameters), Usage::eUniformBuffer, Memory::upload, "parameters");
     normal_ = device.make_buffer(nodes * sizeof(Float4), Usage::eStorageBuffer, Memory::device, "normal");
     strain_ = device.make_buffer(nodes * sizeof(float), Usage::eStorageBuffer, Memory::device, "strain");
-    measures_ = device.make_buffer(tree_.value_count * 2 * sizeof(Float4), Usage::eStorageBuffer, Memory::device, "measures");
+    measures_ = device.make_buffer(tree_.value_count * 2 * sizeof(Float4), Usage::eStorageBuffer,
+                                   Memory::device, "measures");
     root_ = device.make_buffer(2 * sizeof(Float4), Usage::eTransferDst, Memory::readback, "measured total");
     if (model.feels_air())
-        external_force_ = device.make_buffer(nodes * sizeof(Float4), Usage::eStorageBuffer, Memory::device, "external force");
+        external_force_ = device.make_buffer(nodes * sizeof(Float4), Usage::eStorageBuffer, Memory::device,
+                                             "external force");
 
     if (!model.node_centric()) {
         std::vector<std::array<std::uint32_t, 2>> ends, around;
         std::vector<std::array<float, 2>> rest_class;
         for (const Spring& spring : model.springs) {
             ends.push_back({spring.i, spring.j});
-            rest_class.push_back({static_cast<float>(spring.rest_length), static_cast<float>(spring.spring_class)});
+            rest_class.push_back(
+                {static_cast<float>(spring.rest_length), static_cast<float>(spring.spring_class)});
         }
-        for (const Neighbour& neighbour : model.neighbours.entries) around.push_back({neighbour.node, neighbour.spring});
+        for (const Neighbour& neighbour : model.neighbours.entries)
+            around.push_back({neighbour.node, neighbour.spring});
         const auto& start = model.neighbours.start;
         springs_ = filled(device, ends.data(), ends.size() * sizeof(ends[0]), "springs");
-        spring_rest_class_ = filled(device, rest_class.data(), rest_class.size() * sizeof(rest_class[0]), "rest lengths");
+        spring_rest_class_ =
+            filled(device, rest_class.data(), rest_class.size() * sizeof(rest_class[0]), "rest lengths");
         neighbour_start_ = filled(device, start.data(), start.size() * sizeof(start[0]), "neighbour rows");
         neighbours_ = filled(device, around.data(), around.size() * sizeof(around[0]), "neighbours");
-        spring_force_ = device.make_buffer(ends.size() * sizeof(Float4), Usage::eStorageBuffer, Memory::device, "spring force");
+        spring_force_ = device.make_buffer(ends.size() * sizeof(Float4), Usage::eStorageBuffer,
+                                           Memory::device, "spring force");
     }
     if (!model.is_sheet()) {
         const auto triangles = model.triangles();
         const auto &start = model.node_triangles.start, &around = model.node_triangles.entries;
         triangles_ = filled(device, triangles.data(), triangles.size_bytes(), "triangles");
         triangle_start_ = filled(device, start.data(), start.size() * sizeof(start[0]), "triangle rows");
-        node_triangles_ = filled(device, around.data(), around.size() * sizeof(around[0]), "triangles around nodes");
+        node_triangles_ =
+            filled(device, around.data(), around.size() * sizeof(around[0]), "triangles around nodes");
     }
 
     const vk::DescriptorPoolSize sizes[] = {{vk::DescriptorType::eUniformBuffer, 2},
                                             {vk::DescriptorType::eStorageBuffer, 2 * (binding_count - 1)}};
-    pool_ = {device.handle(), vk::DescriptorPoolCreateInfo(vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 2, sizes)};
+    pool_ = {device.handle(),
+             vk::DescriptorPoolCreateInfo(vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 2, sizes)};
     const vk::DescriptorSetLayout layouts[] = {*layout, *layout};
-    for (auto& set : vk::raii::DescriptorSets(device.handle(), vk::DescriptorSetAllocateInfo(*pool_, layouts)))
+    for (auto& set :
+         vk::raii::DescriptorSets(device.handle(), vk::DescriptorSetAllocateInfo(*pool_, layouts)))
         sets_.push_back(std::move(set));
 
     for (std::uint32_t parity = 0; parity < 2; ++parity) {
@@ -114,10 +127,12 @@ ClothBuffers::ClothBuffers(const Device& device, const ClothModel& model, const 
         for (const auto& [binding, buffer] : bound) {
             if (buffer->size == 0) continue;  // this kind of cloth has none
             const auto descriptor = buffer->descriptor();
-            const auto type =
-                binding == Binding::parameters ? vk::DescriptorType::eUniformBuffer : vk::DescriptorType::eStorageBuffer;
+            const auto type = binding == Binding::parameters ? vk::DescriptorType::eUniformBuffer
+                                                             : vk::DescriptorType::eStorageBuffer;
             device.handle().updateDescriptorSets(
-                vk::WriteDescriptorSet(*sets_[parity], static_cast<std::uint32_t>(binding), 0, 1, type, nullptr, &descriptor), {});
+                vk::WriteDescriptorSet(*sets_[parity], static_cast<std::uint32_t>(binding), 0, 1, type,
+                                       nullptr, &descriptor),
+                {});
         }
     }
 }
@@ -181,8 +196,9 @@ std::size_t ClothBuffers::entry_count(Resource resource) const
 
 void ClothBuffers::record_root_copy(const vk::raii::CommandBuffer& commands) const
 {
-    commands.copyBuffer(*measures_, *root_,
-                        vk::BufferCopy(tree_.levels.back().first * 2 * sizeof(Float4), 0, 2 * sizeof(Float4)));
+    commands.copyBuffer(
+        *measures_, *root_,
+        vk::BufferCopy(tree_.levels.back().first * 2 * sizeof(Float4), 0, 2 * sizeof(Float4)));
 }
 
 MeasureTotals ClothBuffers::totals() const

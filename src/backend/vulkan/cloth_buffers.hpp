@@ -1,4 +1,5 @@
-// One cloth on the device: one buffer per attribute, and the sets that bind them for either copy of the state.
+// One cloth on the device: one buffer per attribute, and the sets that bind them for either copy of the
+// state.
 #pragma once
 
 #include <array>

@@ -71,8 +71,9 @@ vk::raii::Instance make_instance(const vk::raii::Context& context, bool validati
     std::vector<const char*> layers, extensions;
     if (validation) {
         const auto available = context.enumerateInstanceLayerProperties();
-        if (std::none_of(available.begin(), available.end(),
-                         [](const auto& layer) { return std::strcmp(layer.layerName, validation_layer) == 0; }))
+        if (std::none_of(available.begin(), available.end(), [](const auto& layer) {
+                return std::strcmp(layer.layerName, validation_layer) == 0;
+            }))
             throw Error(ErrorKind::device_failure, std::string("the Vulkan layer ") + validation_layer +
                                                        " is not installed: on Debian, install the package "
                                                        "vulkan-validationlayers");
@@ -83,7 +84,8 @@ vk::raii::Instance make_instance(const vk::raii::Context& context, bool validati
     return {context, vk::InstanceCreateInfo({}, &application, layers, extensions)};
 }
 
-VKAPI_ATTR VkBool32 VKAPI_CALL count_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+VKAPI_ATTR VkBool32 VKAPI_CALL count_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                             VkDebugUtilsMessageTypeFlagsEXT,
                                              const VkDebugUtilsMessengerCallbackDataEXT* data, void* counter)
 {
     ++*static_cast<std::atomic<std::uint64_t>*>(counter);
@@ -111,12 +113,14 @@ Device::Device(const DeviceOptions& options)
 try {
     open(options);
 } catch (const vk::SystemError& error) {
-    throw Error(ErrorKind::device_failure, std::string("Vulkan cannot be used here: ") + error.what() +
-                                               "; install a Vulkan driver (on Debian, mesa-vulkan-drivers) or run with "
-                                               "--backend cpu");
+    throw Error(ErrorKind::device_failure,
+                std::string("Vulkan cannot be used here: ") + error.what() +
+                    "; install a Vulkan driver (on Debian, mesa-vulkan-drivers) or run with "
+                    "--backend cpu");
 } catch (const std::runtime_error& error) {
     if (const auto* known = dynamic_cast<const Error*>(&error)) throw *known;
-    throw Error(ErrorKind::device_failure, "no Vulkan loader was found: install libvulkan1, or run with --backend cpu");
+    throw Error(ErrorKind::device_failure,
+                "no Vulkan loader was found: install libvulkan1, or run with --backend cpu");
 }
 
 void Device::open(const DeviceOptions& options)
@@ -135,18 +139,22 @@ void Device::open(const DeviceOptions& options)
     for (auto& physical : vk::raii::PhysicalDevices(instance_))
         if (usable(physical)) candidates.push_back(std::move(physical));
     if (candidates.empty())
-        throw Error(ErrorKind::device_failure,
-                    "no Vulkan 1.2 device was found: install a driver (on Debian, mesa-vulkan-drivers) or run with "
-                    "--backend cpu");
+        throw Error(
+            ErrorKind::device_failure,
+            "no Vulkan 1.2 device was found: install a driver (on Debian, mesa-vulkan-drivers) or run with "
+            "--backend cpu");
     if (options.index >= static_cast<int>(candidates.size()) || options.index < -1)
-        throw Error(ErrorKind::device_failure, "device " + std::to_string(options.index) + " does not exist: there " +
-                                                   (candidates.size() == 1 ? "is 1 device" : "are " +
-                                                    std::to_string(candidates.size()) + " devices") +
-                                                   ", counted from 0; see 'pliant info'");
+        throw Error(ErrorKind::device_failure,
+                    "device " + std::to_string(options.index) + " does not exist: there " +
+                        (candidates.size() == 1 ? "is 1 device"
+                                                : "are " + std::to_string(candidates.size()) + " devices") +
+                        ", counted from 0; see 'pliant info'");
     std::size_t chosen = options.index < 0 ? 0 : static_cast<std::size_t>(options.index);
     if (options.index < 0)
         for (std::size_t i = 1; i < candidates.size(); ++i)
-            if (preference(describe(candidates[i], 0).kind) < preference(describe(candidates[chosen], 0).kind)) chosen = i;
+            if (preference(describe(candidates[i], 0).kind) <
+                preference(describe(candidates[chosen], 0).kind))
+                chosen = i;
     physical_ = std::move(candidates[chosen]);
     info_ = describe(physical_, static_cast<int>(chosen));
     memory_properties_ = physical_.getMemoryProperties();
@@ -172,31 +180,38 @@ std::uint32_t Device::memory_type(std::uint32_t allowed_types, vk::MemoryPropert
 {
     for (const auto flags : {wanted | preferred, wanted})
         for (std::uint32_t i = 0; i < memory_properties_.memoryTypeCount; ++i)
-            if ((allowed_types >> i & 1) && (memory_properties_.memoryTypes[i].propertyFlags & flags) == flags) return i;
-    throw Error(ErrorKind::device_failure, "the device " + info_.name + " has no memory of the kind a buffer needs");
+            if ((allowed_types >> i & 1) &&
+                (memory_properties_.memoryTypes[i].propertyFlags & flags) == flags)
+                return i;
+    throw Error(ErrorKind::device_failure,
+                "the device " + info_.name + " has no memory of the kind a buffer needs");
 }
 
-Buffer Device::make_buffer(vk::DeviceSize size, vk::BufferUsageFlags usage, Memory memory, const char* name) const
+Buffer Device::make_buffer(vk::DeviceSize size, vk::BufferUsageFlags usage, Memory memory,
+                           const char* name) const
 {
     using Property = vk::MemoryPropertyFlagBits;
     size = std::max<vk::DeviceSize>(size, 16);  // Vulkan has no empty buffers
     const auto refusal = [&](const std::string& why) {
         return Error(ErrorKind::device_failure, std::string("the buffer '") + name + "' of " +
-                                                    std::to_string(size >> 20) + " MiB does not fit on " + info_.name +
-                                                    ": " + why + "; use fewer nodes or another backend");
+                                                    std::to_string(size >> 20) + " MiB does not fit on " +
+                                                    info_.name + ": " + why +
+                                                    "; use fewer nodes or another backend");
     };
     if ((usage & vk::BufferUsageFlagBits::eStorageBuffer) && size > info_.max_buffer_range)
-        throw refusal("a storage buffer holds at most " + std::to_string(info_.max_buffer_range >> 20) + " MiB there");
+        throw refusal("a storage buffer holds at most " + std::to_string(info_.max_buffer_range >> 20) +
+                      " MiB there");
     try {
         Buffer buffer;
         buffer.size = size;
-        buffer.handle = {device_, vk::BufferCreateInfo({}, size, usage | vk::BufferUsageFlagBits::eTransferSrc |
-                                                                     vk::BufferUsageFlagBits::eTransferDst)};
+        buffer.handle = {device_, vk::BufferCreateInfo({}, size,
+                                                       usage | vk::BufferUsageFlagBits::eTransferSrc |
+                                                           vk::BufferUsageFlagBits::eTransferDst)};
         const auto needs = buffer.handle.getMemoryRequirements();
         const auto host = Property::eHostVisible | Property::eHostCoherent;
-        const std::uint32_t type = memory == Memory::device ? memory_type(needs.memoryTypeBits, Property::eDeviceLocal)
-                                   : memory == Memory::upload
-                                       ? memory_type(needs.memoryTypeBits, host, Property::eDeviceLocal)
+        const std::uint32_t type =
+            memory == Memory::device   ? memory_type(needs.memoryTypeBits, Property::eDeviceLocal)
+            : memory == Memory::upload ? memory_type(needs.memoryTypeBits, host, Property::eDeviceLocal)
                                        : memory_type(needs.memoryTypeBits, host, Property::eHostCached);
         buffer.memory = {device_, vk::MemoryAllocateInfo(needs.size, type)};
         buffer.handle.bindMemory(*buffer.memory, 0);
@@ -214,7 +229,8 @@ vk::raii::ShaderModule Device::make_shader(std::span<const std::uint32_t> code) 
 
 vk::raii::CommandBuffer Device::make_commands() const
 {
-    return std::move(vk::raii::CommandBuffers(device_, {*pool_, vk::CommandBufferLevel::ePrimary, 1}).front());
+    return std::move(
+        vk::raii::CommandBuffers(device_, {*pool_, vk::CommandBufferLevel::ePrimary, 1}).front());
 }
 
 void Device::run(const vk::raii::CommandBuffer& commands) const
@@ -233,13 +249,15 @@ void Device::write(const Buffer& target, const void* data, std::size_t bytes) co
         std::memcpy(target.mapped, data, bytes);
         return;
     }
-    const Buffer staging = make_buffer(bytes, vk::BufferUsageFlagBits::eTransferSrc, Memory::upload, "staging");
+    const Buffer staging =
+        make_buffer(bytes, vk::BufferUsageFlagBits::eTransferSrc, Memory::upload, "staging");
     std::memcpy(staging.mapped, data, bytes);
     const auto commands = make_commands();
     commands.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
     commands.copyBuffer(*staging, *target, vk::BufferCopy(0, 0, bytes));
     barrier(commands, vk::PipelineStageFlagBits::eTransfer, vk::AccessFlagBits::eTransferWrite,
-            vk::PipelineStageFlagBits::eAllCommands, vk::AccessFlagBits::eMemoryRead | vk::AccessFlagBits::eMemoryWrite);
+            vk::PipelineStageFlagBits::eAllCommands,
+            vk::AccessFlagBits::eMemoryRead | vk::AccessFlagBits::eMemoryWrite);
     commands.end();
     run(commands);
 }
@@ -251,7 +269,8 @@ void Device::read(const Buffer& source, void* data, std::size_t bytes) const
         std::memcpy(data, source.mapped, bytes);
         return;
     }
-    const Buffer staging = make_buffer(bytes, vk::BufferUsageFlagBits::eTransferDst, Memory::readback, "staging");
+    const Buffer staging =
+        make_buffer(bytes, vk::BufferUsageFlagBits::eTransferDst, Memory::readback, "staging");
     const auto commands = make_commands();
     commands.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
     barrier(commands, vk::PipelineStageFlagBits::eAllCommands, vk::AccessFlagBits::eMemoryWrite,

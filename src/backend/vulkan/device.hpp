@@ -1,4 +1,5 @@
-// A Vulkan 1.2 device: chosen, opened, with buffers and one queue. Shared by the compute backend and the renderer.
+// A Vulkan 1.2 device: chosen, opened, with buffers and one queue. Shared by the compute backend and the
+// renderer.
 #pragma once
 
 #include <atomic>
@@ -13,8 +14,8 @@
 namespace pliant::vulkan {
 
 struct DeviceOptions {
-    int index = -1;           ///< as listed by list_physical_devices(); -1 takes the best: discrete, integrated,
-                              ///< virtual, other, software
+    int index = -1;  ///< as listed by list_physical_devices(); -1 takes the best: discrete, integrated,
+                     ///< virtual, other, software
     bool validation = false;  ///< with VK_LAYER_KHRONOS_validation, whose messages are counted and printed
 };
 
@@ -62,11 +63,12 @@ public:
     const vk::raii::Device& handle() const { return device_; }
     const vk::raii::PhysicalDevice& physical() const { return physical_; }
     std::uint32_t queue_family() const { return queue_family_; }
-    bool can_draw() const { return can_draw_; }  ///< the queue does graphics too
+    bool can_draw() const { return can_draw_; }                    ///< the queue does graphics too
     double timestamp_period() const { return timestamp_period_; }  ///< ns per tick; 0 without timestamps
 
     /// Throws Error(device_failure), naming the buffer, when the device cannot hold it.
-    Buffer make_buffer(vk::DeviceSize size, vk::BufferUsageFlags usage, Memory memory, const char* name) const;
+    Buffer make_buffer(vk::DeviceSize size, vk::BufferUsageFlags usage, Memory memory,
+                       const char* name) const;
     std::uint32_t memory_type(std::uint32_t allowed_types, vk::MemoryPropertyFlags wanted,
                               vk::MemoryPropertyFlags preferred = {}) const;
     vk::raii::ShaderModule make_shader(std::span<const std::uint32_t> code) const;

@@ -21,8 +21,8 @@ class DeviceState {
 public:
     virtual ~DeviceState() = default;
     virtual const std::shared_ptr<vulkan::Device>& device() const = 0;
-    /// Brings normals and strains up to the current positions on the device, and names the buffers, which stay the
-    /// same buffers for the life of the simulation except `position`, which alternates between two.
+    /// Brings normals and strains up to the current positions on the device, and names the buffers, which
+    /// stay the same buffers for the life of the simulation except `position`, which alternates between two.
     virtual DeviceClothBuffers drawable(std::size_t cloth) = 0;
 };
 

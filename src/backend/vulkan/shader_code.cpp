@@ -59,7 +59,7 @@ std::vector<std::uint32_t> with_float_controls(std::span<const std::uint32_t> co
         bool wanted;
         std::uint32_t capability, mode;
     };
-    const Mode modes[] = {{controls.flush_denormals, 4465, 4460},   // DenormFlushToZero
+    const Mode modes[] = {{controls.flush_denormals, 4465, 4460},    // DenormFlushToZero
                           {controls.round_to_nearest, 4467, 4462}};  // RoundingModeRTE
 
     std::vector<std::uint32_t> result(code.begin(), code.begin() + header_words);
@@ -76,7 +76,8 @@ std::vector<std::uint32_t> with_float_controls(std::span<const std::uint32_t> co
         if (op == op_entry_point)
             for (const Mode& mode : modes)
                 if (mode.wanted)
-                    result.insert(result.end(), {4u << 16 | op_execution_mode, code[at + 2], mode.mode, float_bits});
+                    result.insert(result.end(),
+                                  {4u << 16 | op_execution_mode, code[at + 2], mode.mode, float_bits});
         at += words;
     }
     return result;

@@ -13,8 +13,9 @@ std::span<const std::uint32_t> compute_shader(Pass pass);
 
 /// Execution modes for 32-bit floats that a device offers (float controls, core since SPIR-V 1.4).
 struct FloatControls {
-    bool flush_denormals = false;   ///< DenormFlushToZero: denormals are flushed on every machine
-    bool round_to_nearest = false;  ///< RoundingModeRTE: without it, Vulkan leaves the direction of rounding open
+    bool flush_denormals = false;  ///< DenormFlushToZero: denormals are flushed on every machine
+    bool round_to_nearest =
+        false;  ///< RoundingModeRTE: without it, Vulkan leaves the direction of rounding open
 };
 
 /// The same module with these modes.

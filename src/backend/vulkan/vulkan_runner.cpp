@@ -49,8 +49,8 @@ struct Recording {
     std::vector<Stretch> stretches;
 };
 
-/// Puts barriers where the table of passes asks for them: before a call that touches what an earlier one wrote, or
-/// writes what an earlier one read.
+/// Puts barriers where the table of passes asks for them: before a call that touches what an earlier one
+/// wrote, or writes what an earlier one read.
 class BarrierPlan {
 public:
     bool needed_before(const Call& call)
@@ -117,7 +117,8 @@ public:
         parity_ = program.parity_after;
     }
 
-    void read(std::uint32_t cloth, Resource resource, std::uint32_t parity, std::vector<float>& values) override
+    void read(std::uint32_t cloth, Resource resource, std::uint32_t parity,
+              std::vector<float>& values) override
     {
         const ClothBuffers& buffers = cloths_[cloth];
         const std::size_t count = buffers.entry_count(resource);
@@ -154,21 +155,26 @@ public:
     }
 
 private:
-    static constexpr std::size_t most_recordings = 64;  ///< a host that varies its frames does not fill the memory
+    static constexpr std::size_t most_recordings =
+        64;  ///< a host that varies its frames does not fill the memory
     static constexpr std::uint32_t linear_group = 64;
     static constexpr std::uint32_t sheet_group_x = 32, sheet_group_y = 4;
 
     void make_pipelines()
     {
         const auto properties =
-            device_->physical().getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceFloatControlsProperties>();
+            device_->physical()
+                .getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceFloatControlsProperties>();
         const auto& controls = properties.get<vk::PhysicalDeviceFloatControlsProperties>();
         const FloatControls modes{controls.shaderDenormFlushToZeroFloat32 == VK_TRUE,
                                   controls.shaderRoundingModeRTEFloat32 == VK_TRUE};
         for (std::uint32_t p = 0; p < all_passes().size(); ++p) {
-            const auto module = device_->make_shader(with_float_controls(compute_shader(static_cast<Pass>(p)), modes));
-            const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main");
-            pipelines_.emplace_back(device_->handle(), nullptr, vk::ComputePipelineCreateInfo({}, stage, *pipeline_layout_));
+            const auto module =
+                device_->make_shader(with_float_controls(compute_shader(static_cast<Pass>(p)), modes));
+            const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module,
+                                                          "main");
+            pipelines_.emplace_back(device_->handle(), nullptr,
+                                    vk::ComputePipelineCreateInfo({}, stage, *pipeline_layout_));
         }
     }
 
@@ -186,7 +192,8 @@ private:
             case Pass::sheet_step:
             case Pass::sheet_normal:
             case Pass::sheet_strain:
-                return {groups(model.sheet->columns, sheet_group_x), groups(model.sheet->rows, sheet_group_y)};
+                return {groups(model.sheet->columns, sheet_group_x),
+                        groups(model.sheet->rows, sheet_group_y)};
             case Pass::sheet_measure:
             case Pass::list_measure: return {cloth.tree().levels.front().count};
             case Pass::measure_merge: return {cloth.tree().levels[call.index].count};
@@ -218,7 +225,8 @@ private:
         const std::size_t bytes = count * sizeof(ColliderRow);
         if (colliders_.size >= bytes && colliders_.size > 0) return;
         recordings_.clear();  // they hold the sets that change now
-        colliders_ = device_->make_buffer(bytes, vk::BufferUsageFlagBits::eStorageBuffer, Memory::upload, "colliders");
+        colliders_ =
+            device_->make_buffer(bytes, vk::BufferUsageFlagBits::eStorageBuffer, Memory::upload, "colliders");
         for (ClothBuffers& cloth : cloths_) cloth.bind_colliders(*device_, colliders_);
     }
 
@@ -253,7 +261,8 @@ private:
         // What the host or an earlier submission wrote.
         barrier(commands, vk::PipelineStageFlagBits::eAllCommands, vk::AccessFlagBits::eMemoryWrite,
                 vk::PipelineStageFlagBits::eComputeShader,
-                vk::AccessFlagBits::eShaderRead | vk::AccessFlagBits::eShaderWrite | vk::AccessFlagBits::eUniformRead);
+                vk::AccessFlagBits::eShaderRead | vk::AccessFlagBits::eShaderWrite |
+                    vk::AccessFlagBits::eUniformRead);
         BarrierPlan plan;
         std::set<std::uint32_t> measured;
         std::uint32_t query = 0;
@@ -262,15 +271,18 @@ private:
             const bool first = c == 0 || program.calls[c - 1].pass != call.pass;
             const bool last = c + 1 == program.calls.size() || program.calls[c + 1].pass != call.pass;
             if (timed && first)
-                commands.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *recording.queries, query++);
+                commands.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *recording.queries,
+                                        query++);
             if (plan.needed_before(call))
                 barrier(commands, vk::PipelineStageFlagBits::eComputeShader, vk::AccessFlagBits::eShaderWrite,
                         vk::PipelineStageFlagBits::eComputeShader,
                         vk::AccessFlagBits::eShaderRead | vk::AccessFlagBits::eShaderWrite);
             dispatch(commands, call);
             if (timed && last)
-                commands.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *recording.queries, query++);
-            if (call.pass == Pass::sheet_measure || call.pass == Pass::list_measure) measured.insert(call.cloth);
+                commands.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *recording.queries,
+                                        query++);
+            if (call.pass == Pass::sheet_measure || call.pass == Pass::list_measure)
+                measured.insert(call.cloth);
         }
         if (!measured.empty()) {
             barrier(commands, vk::PipelineStageFlagBits::eComputeShader, vk::AccessFlagBits::eShaderWrite,
@@ -293,8 +305,10 @@ private:
         }
         const Groups groups = groups_of(call);
         if (groups.x == 0) return;  // a mesh without springs
-        commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipelines_[static_cast<std::size_t>(call.pass)]);
-        commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *pipeline_layout_, 0, cloth.set(call.parity), {});
+        commands.bindPipeline(vk::PipelineBindPoint::eCompute,
+                              *pipelines_[static_cast<std::size_t>(call.pass)]);
+        commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *pipeline_layout_, 0,
+                                    cloth.set(call.parity), {});
         commands.pushConstants<Push>(*pipeline_layout_, vk::ShaderStageFlagBits::eCompute, 0, push);
         commands.dispatch(static_cast<std::uint32_t>(groups.x), static_cast<std::uint32_t>(groups.y), 1);
     }
@@ -307,7 +321,8 @@ private:
             vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
         if (result != vk::Result::eSuccess) return;
         for (std::size_t s = 0; s < recording.stretches.size(); ++s) {
-            const double nanoseconds = static_cast<double>(ticks[2 * s + 1] - ticks[2 * s]) * device_->timestamp_period();
+            const double nanoseconds =
+                static_cast<double>(ticks[2 * s + 1] - ticks[2 * s]) * device_->timestamp_period();
             clock_.add(recording.stretches[s].pass, nanoseconds * 1e-6, recording.stretches[s].calls);
         }
     }
@@ -325,7 +340,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<VulkanRunner> make_vulkan_runner(std::span<const ClothModel> cloths, const SimulationOptions& options)
+std::unique_ptr<VulkanRunner> make_vulkan_runner(std::span<const ClothModel> cloths,
+                                                 const SimulationOptions& options)
 {
     return std::make_unique<Runner>(cloths, options);
 }

@@ -13,6 +13,7 @@ namespace pliant {
 class VulkanRunner : public PassRunner, public DeviceState {};
 
 /// Throws Error(device_failure) when there is no such device or the cloths do not fit.
-std::unique_ptr<VulkanRunner> make_vulkan_runner(std::span<const ClothModel> cloths, const SimulationOptions& options);
+std::unique_ptr<VulkanRunner> make_vulkan_runner(std::span<const ClothModel> cloths,
+                                                 const SimulationOptions& options);
 
 }  // namespace pliant

@@ -23,6 +23,9 @@ public:
     /// Binary, with the classic locale. Write errors need not be checked here: `commit` does.
     std::ostream& stream() { return stream_; }
 
+    /// As it was asked for.
+    const std::filesystem::path& path() const { return asked_for_; }
+
     /// Throws Error(bad_input) when anything could not be written; the target is then untouched.
     void commit();
 

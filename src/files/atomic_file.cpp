@@ -1,4 +1,4 @@
-#include "mesh/atomic_file.hpp"
+#include "files/atomic_file.hpp"
 
 #include <array>
 #include <charconv>
