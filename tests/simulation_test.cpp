@@ -216,6 +216,19 @@ TEST(Simulation, NormalsStrainsAndTrianglesAreThereWhenAsked)
     }
 }
 
+TEST(Simulation, LendsItsBuffersOnTheDevice)
+{
+    EXPECT_FALSE(Simulation(small_scene(), test::on(Backend::cpu)).device_buffers().has_value());
+    Simulation simulation(small_scene(), test::on(Backend::vulkan));
+    simulation.advance(1.0 / 60);
+    const auto before = simulation.device_buffers();
+    ASSERT_TRUE(before.has_value());
+    EXPECT_EQ(before->node_count, 120u);
+    EXPECT_TRUE(before->device && before->instance && before->physical_device);
+    EXPECT_TRUE(before->position && before->normal && before->strain);
+    EXPECT_THROW(simulation.device_buffers(7), std::exception);
+}
+
 TEST(Simulation, TimesItsPasses)
 {
     for (const Backend backend : {Backend::reference, Backend::cpu, Backend::vulkan}) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -78,7 +79,20 @@ struct Report {
     std::uint64_t validation_messages = 0;  ///< Vulkan, with validation
 };
 
-class DeviceState;  // the Vulkan side of a simulation, see src/backend/vulkan
+/// Where a cloth lies on its Vulkan device, for hosts that draw or compute from it without a copy. Handles
+/// are given without Vulkan's types, so that this header needs none of its own: cast them to those named.
+struct DeviceBuffers {
+    void* instance = nullptr;         ///< VkInstance
+    void* physical_device = nullptr;  ///< VkPhysicalDevice
+    void* device = nullptr;           ///< VkDevice
+    std::uint32_t queue_family = 0;   ///< that owns the buffers
+    std::uint64_t position = 0;       ///< VkBuffer, vec4 per node: xyz in m, w the inverse mass in 1/kg
+    std::uint64_t normal = 0;         ///< VkBuffer, vec4 per node: xyz of unit length
+    std::uint64_t strain = 0;         ///< VkBuffer, float per node: the largest stretch of its springs
+    std::uint32_t node_count = 0;
+};
+
+class DeviceState;  // Pliant's own renderer draws through it, see src/backend/vulkan
 
 /// Steps a scene through time. The scene is copied; changing it afterwards changes nothing here.
 class Simulation {
@@ -136,7 +150,10 @@ public:
     /// A sentence when the scene's step is larger than `stable_step`, else empty.
     std::string stability_warning() const;
 
-    /// For drawing from the simulation's own buffers; null unless the backend is vulkan.
+    /// The buffers of a cloth on the device, up to date and idle until the next advance(); nothing unless the
+    /// backend is vulkan. `position` alternates between two buffers, so ask again after every advance().
+    std::optional<DeviceBuffers> device_buffers(std::size_t cloth = 0);
+    /// For Pliant's own renderer; null unless the backend is vulkan.
     DeviceState* device_state();
 
 private:

@@ -135,7 +135,7 @@ public:
             run_steps(piece, step);
             left -= piece;
         }
-        for (ReadBack& read_back : read_backs) read_back = {};
+        ++state_number;
         ++report.frames;
         take_measures();
         report.validation_messages = runner->validation_messages();
@@ -234,33 +234,34 @@ public:
     std::span<const Vec3> values(std::size_t cloth, Resource resource)
     {
         ReadBack& read_back = read_backs.at(cloth);
-        std::vector<Vec3>& target = resource == Resource::position   ? read_back.positions
-                                    : resource == Resource::velocity ? read_back.velocities
-                                                                     : read_back.normals;
-        if (!target.empty()) return target;
+        ReadBack::Values<Vec3>& target = resource == Resource::position   ? read_back.positions
+                                         : resource == Resource::velocity ? read_back.velocities
+                                                                          : read_back.normals;
+        if (target.frame == state_number) return target.values;
         if (resource == Resource::normal) update_drawing(cloth);
         runner->read(static_cast<std::uint32_t>(cloth), resource, parity, scratch);
-        target.resize(scratch.size() / 3);
-        for (std::size_t i = 0; i < target.size(); ++i)
-            target[i] = {scratch[3 * i], scratch[3 * i + 1], scratch[3 * i + 2]};
-        return target;
+        target.values.resize(scratch.size() / 3);
+        for (std::size_t i = 0; i < target.values.size(); ++i)
+            target.values[i] = {scratch[3 * i], scratch[3 * i + 1], scratch[3 * i + 2]};
+        target.frame = state_number;
+        return target.values;
     }
 
     std::span<const float> strains(std::size_t cloth)
     {
-        ReadBack& read_back = read_backs.at(cloth);
-        if (read_back.strains.empty()) {
-            update_drawing(cloth);
-            runner->read(static_cast<std::uint32_t>(cloth), Resource::strain, parity, read_back.strains);
-        }
-        return read_back.strains;
+        ReadBack::Values<float>& target = read_backs.at(cloth).strains;
+        if (target.frame == state_number) return target.values;
+        update_drawing(cloth);
+        runner->read(static_cast<std::uint32_t>(cloth), Resource::strain, parity, target.values);
+        target.frame = state_number;
+        return target.values;
     }
 
     /// Normals and strains are computed only when someone looks.
     void update_drawing(std::size_t cloth)
     {
-        if (read_backs[cloth].drawing_is_current) return;
-        read_backs[cloth].drawing_is_current = true;
+        if (read_backs[cloth].drawn == state_number) return;
+        read_backs[cloth].drawn = state_number;
         if (device_state) {
             device_state->drawable(cloth);
             return;
@@ -282,10 +283,17 @@ public:
     static constexpr std::size_t most_programs =
         32;  ///< a host that varies its frames does not fill the memory
 
-    struct ReadBack {  // empty vectors: not read since the last frame
-        std::vector<Vec3> positions, velocities, normals;
-        std::vector<float> strains;
-        bool drawing_is_current = false;
+    /// What was read back of a cloth, and of which state; kept from frame to frame, so that reading allocates
+    /// once.
+    struct ReadBack {
+        template <class T>
+        struct Values {
+            std::vector<T> values;
+            std::uint64_t frame = 0;
+        };
+        Values<Vec3> positions, velocities, normals;
+        Values<float> strains;
+        std::uint64_t drawn = 0;  ///< normals and strains on the device
     };
 
     Scene scene;
@@ -299,6 +307,7 @@ public:
     std::map<std::pair<std::uint32_t, std::uint32_t>, Program> programs;  // by steps and parity
     std::uint64_t next_program_id = 1;
     std::uint32_t parity = 0;
+    std::uint64_t state_number = 1;  ///< counts states; 0 is none
     std::vector<ReadBack> read_backs;
     std::vector<float> scratch;
     Report report;
@@ -398,6 +407,25 @@ std::string Simulation::stability_warning() const
            " and the run may diverge: use at least " +
            std::to_string(static_cast<long long>(std::ceil(frame / stable))) +
            " substeps per frame (time.substeps), softer springs or heavier nodes";
+}
+
+std::optional<DeviceBuffers> Simulation::device_buffers(std::size_t cloth)
+{
+    if (!implementation_->device_state) return std::nullopt;
+    implementation_->models.at(cloth);  // refuses a cloth that does not exist
+    const vulkan::Device& device = *implementation_->device_state->device();
+    const DeviceClothBuffers buffers = implementation_->device_state->drawable(cloth);
+    const auto handle = [](vk::Buffer buffer) {
+        return reinterpret_cast<std::uint64_t>(static_cast<VkBuffer>(buffer));
+    };
+    return DeviceBuffers{static_cast<VkInstance>(*device.instance()),
+                         static_cast<VkPhysicalDevice>(*device.physical()),
+                         static_cast<VkDevice>(*device.handle()),
+                         device.queue_family(),
+                         handle(buffers.position),
+                         handle(buffers.normal),
+                         handle(buffers.strain),
+                         buffers.node_count};
 }
 
 DeviceState* Simulation::device_state() { return implementation_->device_state; }

@@ -84,11 +84,14 @@ vk::raii::Instance make_instance(const vk::raii::Context& context, bool validati
     return {context, vk::InstanceCreateInfo({}, &application, layers, extensions)};
 }
 
+std::atomic<std::uint64_t> all_messages{0};
+
 VKAPI_ATTR VkBool32 VKAPI_CALL count_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                              VkDebugUtilsMessageTypeFlagsEXT,
                                              const VkDebugUtilsMessengerCallbackDataEXT* data, void* counter)
 {
     ++*static_cast<std::atomic<std::uint64_t>*>(counter);
+    ++all_messages;
     std::fprintf(stderr, "vulkan validation: %s\n", data->pMessage);
     return VK_FALSE;
 }
@@ -174,6 +177,8 @@ void Device::open(const DeviceOptions& options)
     pool_ = {device_, {vk::CommandPoolCreateFlagBits::eResetCommandBuffer, queue_family_}};
     fence_ = {device_, vk::FenceCreateInfo{}};
 }
+
+std::uint64_t Device::all_validation_messages() { return all_messages; }
 
 std::uint32_t Device::memory_type(std::uint32_t allowed_types, vk::MemoryPropertyFlags wanted,
                                   vk::MemoryPropertyFlags preferred) const

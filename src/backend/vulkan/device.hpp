@@ -62,6 +62,7 @@ public:
     const PhysicalDeviceInfo& info() const { return info_; }
     const vk::raii::Device& handle() const { return device_; }
     const vk::raii::PhysicalDevice& physical() const { return physical_; }
+    const vk::raii::Instance& instance() const { return instance_; }
     std::uint32_t queue_family() const { return queue_family_; }
     bool can_draw() const { return can_draw_; }                    ///< the queue does graphics too
     double timestamp_period() const { return timestamp_period_; }  ///< ns per tick; 0 without timestamps
@@ -84,6 +85,8 @@ public:
 
     /// Messages of the validation layer so far (warnings and errors).
     std::uint64_t validation_messages() const { return validation_messages_; }
+    /// The same of all devices since the program began, with what was said while they were closed.
+    static std::uint64_t all_validation_messages();
 
 private:
     void open(const DeviceOptions& options);

@@ -315,14 +315,16 @@ private:
 
     void take_times(const Recording& recording)
     {
+        // By the C entry: vulkan.hpp would allocate an array in every frame.
         const auto count = static_cast<std::uint32_t>(2 * recording.stretches.size());
-        const auto [result, ticks] = recording.queries.getResults<std::uint64_t>(
-            0, count, count * sizeof(std::uint64_t), sizeof(std::uint64_t),
-            vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
-        if (result != vk::Result::eSuccess) return;
+        ticks_.resize(count);
+        const VkResult result = recording.queries.getDispatcher()->vkGetQueryPoolResults(
+            *device_->handle(), *recording.queries, 0, count, count * sizeof(std::uint64_t), ticks_.data(),
+            sizeof(std::uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
+        if (result != VK_SUCCESS) return;
         for (std::size_t s = 0; s < recording.stretches.size(); ++s) {
             const double nanoseconds =
-                static_cast<double>(ticks[2 * s + 1] - ticks[2 * s]) * device_->timestamp_period();
+                static_cast<double>(ticks_[2 * s + 1] - ticks_[2 * s]) * device_->timestamp_period();
             clock_.add(recording.stretches[s].pass, nanoseconds * 1e-6, recording.stretches[s].calls);
         }
     }
@@ -334,6 +336,7 @@ private:
     std::vector<ClothBuffers> cloths_;
     Buffer colliders_;
     std::map<std::uint64_t, Recording> recordings_;
+    std::vector<std::uint64_t> ticks_;
     PassClock clock_;
     std::uint32_t parity_ = 0;
 };
