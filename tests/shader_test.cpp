@@ -56,6 +56,15 @@ TEST(ComputeShaders, UseNoBuiltInWhoseRoundingIsOpen)
         });
 }
 
+TEST(Laws, AreGlslInDoubleToo)
+{
+    const std::string root = PLIANT_SOURCE_DIR;
+    EXPECT_EQ(std::system(("glslc --target-env=vulkan1.2 -Werror -DREAL64 -I " + root +
+                           "/src/laws -o /dev/null " + root + "/tests/laws_real64.comp")
+                              .c_str()),
+              0);
+}
+
 TEST(ComputeShaders, AreStillValidWithFloatControls)
 {
     const auto folder = std::filesystem::temp_directory_path() / "pliant_shader_test";

@@ -23,6 +23,10 @@ struct RunOptions {
     bool quiet = false;
 };
 
+/// No output of a run takes the place of another, or of what the run reads; throws Error(bad_usage) that
+/// names both.
+void check_outputs(const RunOptions& options, const Scene& scene);
+
 int run_command(const RunOptions& options);
 int list_command();
 int info_command();

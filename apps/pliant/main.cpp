@@ -15,7 +15,8 @@ using namespace pliant;
 using namespace pliant::tool;
 
 constexpr const char* exit_codes =
-    "Exit codes: 0 good, 1 bad input, 2 bad usage, 3 the run diverged, 4 device failure.\n";
+    "Exit codes: 0 good, 1 bad input, 2 bad usage, 3 the run diverged, 4 device failure, 130 ended by "
+    "Ctrl-C.\n";
 
 void add_run(CLI::App& app, RunOptions& options)
 {
@@ -70,7 +71,9 @@ void add_run(CLI::App& app, RunOptions& options)
     run->add_option("--stats", options.statistics_file, "Per-frame statistics, CSV")
         ->type_name("F.csv")
         ->check(file_name);
-    run->add_option("--summary", options.summary_file, "Summary of the run, JSON")
+    run->add_option(
+           "--summary", options.summary_file,
+           "Summary of the run, JSON; its frames_per_second and real_time_factor count the simulation alone")
         ->type_name("F.json")
         ->check(file_name);
     run->add_option(

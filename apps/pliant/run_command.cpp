@@ -9,7 +9,6 @@
 
 #include "backend/vulkan/device_state.hpp"
 #include "commands.hpp"
-#include "files/atomic_file.hpp"
 #include "files/numbered_name.hpp"
 #include "progress.hpp"
 #include "record/cache_file.hpp"
@@ -65,29 +64,6 @@ std::string with_commas(std::uint64_t n)
     return text;
 }
 
-/// What can be known of the names of files before the run: none is meant twice, and the summary can be
-/// written.
-void check_outputs(const RunOptions& options)
-{
-    std::vector<std::pair<const char*, std::string>> files = {{"--stats", options.statistics_file},
-                                                              {"--summary", options.summary_file},
-                                                              {"--cache", options.cache_file},
-                                                              {"--stills", options.stills}};
-    for (const std::string& file : options.picture_files) files.emplace_back("--render", file);
-    for (std::size_t i = 0; i < files.size(); ++i)
-        for (std::size_t k = 0; k < i; ++k)
-            if (!files[i].second.empty() && files[i].second == files[k].second)
-                throw Error(ErrorKind::bad_usage, std::string(files[k].first) + " and " + files[i].first +
-                                                      " both name '" + files[i].second +
-                                                      "'; every output needs a name of its own");
-    const bool numbered_png =
-        options.stills.find('%') != std::string::npos && options.stills.ends_with(".png");
-    if (!options.stills.empty() && !numbered_png)
-        throw Error(ErrorKind::bad_usage,
-                    "--stills '" + options.stills + "' must be of the form still_%04d.png");
-    if (!options.summary_file.empty()) const AtomicFile probe(options.summary_file);
-}
-
 /// Draws a simulation for the recorders that want pictures; frames stay on the device when the simulation is
 /// there.
 class Pictures {
@@ -107,7 +83,6 @@ public:
         try {
             open_device();
         } catch (const Error& error) {
-            if (simulation.device_state()) throw;
             recorders_.clear();
             stills_.reset();
             refusal_ = error.what();
@@ -167,10 +142,10 @@ private:
         frames_.clear();
         for (std::size_t c = 0; c < simulation_.scene().cloth_count(); ++c) {
             if (DeviceState* state = simulation_.device_state())
-                frames_.push_back(ClothFrame{state->drawable(c)});
+                frames_.emplace_back(state->drawable(c));
             else
-                frames_.push_back(ClothFrame{
-                    HostCloth{simulation_.positions(c), simulation_.normals(c), simulation_.strains(c)}});
+                frames_.emplace_back(
+                    HostCloth{simulation_.positions(c), simulation_.normals(c), simulation_.strains(c)});
         }
         renderer_->draw(simulation_.time(), frames_, image_);
     }
@@ -187,12 +162,20 @@ private:
     double seconds_ = 0;
 };
 
+/// The scene of a run, once its files are known to harm nothing.
+Scene checked_scene(const RunOptions& options)
+{
+    Scene scene = read_scene(options.scene, options.overrides);
+    check_outputs(options, scene);
+    return scene;
+}
+
 /// One run from the first frame to the summary.
 class Run {
 public:
     explicit Run(const RunOptions& options)
-        : options_((check_outputs(options), options)),
-          scene_(read_scene(options.scene, options.overrides)),
+        : options_(options),
+          scene_(checked_scene(options)),
           simulation_(scene_, options.simulation),
           frames_(options.frames.value_or(static_cast<std::uint64_t>(
               std::max(1.0, std::round(scene_.time.duration * scene_.time.frame_rate))))),
@@ -205,10 +188,15 @@ public:
 
     int execute()
     {
+        const InterruptGuard guard;
         say_start();
-        advance_all();
-        const int code = finish();
-        return code;
+        try {
+            advance_all();
+        } catch (...) {
+            keep_what_is_complete();
+            throw;
+        }
+        return finish();
     }
 
 private:
@@ -216,6 +204,8 @@ private:
     {
         const std::string warning = simulation_.stability_warning();
         if (!warning.empty()) std::fprintf(stderr, "warning: %s\n", warning.c_str());
+        const std::string resolution = simulation_.resolution_warning();
+        if (!resolution.empty()) std::fprintf(stderr, "warning: %s\n", resolution.c_str());
         if (!pictures_.refusal().empty())
             std::fprintf(stderr, "warning: the run goes on without pictures: %s\n",
                          pictures_.refusal().c_str());
@@ -230,7 +220,6 @@ private:
 
     void advance_all()
     {
-        const InterruptGuard guard;
         Progress progress(frames_, options_.quiet);
         const Report& report = simulation_.report();
         if (statistics_) statistics_->add(report, 0);
@@ -252,17 +241,41 @@ private:
         }
     }
 
+    /// Files of the frames so far, when a run ends by an error; whatever is wrong with one does not lose the
+    /// others.
+    void keep_what_is_complete() noexcept
+    {
+        const auto attempt = [](auto&& finish_one) {
+            try {
+                finish_one();
+            } catch (const std::exception& error) {
+                std::fprintf(stderr, "warning: %s\n", error.what());
+            }
+        };
+        attempt([&] {
+            if (statistics_) statistics_->finish();
+        });
+        attempt([&] {
+            if (cache_) cache_->finish();
+        });
+        attempt([&] { pictures_.finish(); });
+    }
+
     int finish()
     {
         const Report& report = simulation_.report();
-        pictures_.finish();
+        if (report.device_lost) {
+            keep_what_is_complete();
+            throw Error(ErrorKind::device_failure, "the run stopped in frame " +
+                                                       std::to_string(report.frames + 1) + " on " +
+                                                       simulation_.device_name() + ": " + report.failure +
+                                                       (simulation_.backend() == Backend::vulkan
+                                                            ? "; update the driver, or run with --backend cpu"
+                                                            : "; use fewer nodes or fewer steps"));
+        }
         if (statistics_) statistics_->finish();
         if (cache_) cache_->finish();
-        if (report.device_lost)
-            throw Error(ErrorKind::device_failure, "the device " + simulation_.device_name() +
-                                                       " was lost in frame " +
-                                                       std::to_string(report.frames + 1) +
-                                                       "; update its driver, or run with --backend cpu");
+        pictures_.finish();
         if (!options_.summary_file.empty())
             summary_.write(options_.summary_file, simulation_, seconds_since(start_));
         if (!report.finite) throw Error(ErrorKind::diverged, divergence());

@@ -20,6 +20,7 @@ using Triangle = std::array<std::uint32_t, 3>;
 struct SurfaceMesh {
     std::vector<Vec3> vertices;       ///< positions in m
     std::vector<Triangle> triangles;  ///< polygons are triangulated by the readers
+    std::filesystem::path file = {};  ///< where it was read from; empty for a mesh made in code
 };
 
 /// Reads a mesh by the ending of its name: `.ply` (ASCII, binary little- and big-endian) or `.obj`.

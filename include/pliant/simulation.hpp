@@ -71,6 +71,7 @@ struct Report {
     double wall_seconds = 0;  ///< spent in advance()
     bool finite = true;
     bool device_lost = false;  ///< a step could not be run: the device, or the memory for it, was not there
+    std::string failure;       ///< and why
     FrameMeasures measures;
     // The first non-finite node, when there is one.
     std::size_t bad_cloth = 0;
@@ -147,11 +148,15 @@ public:
     /// Gershgorin's theorem; up to twice as much may do. See docs/physics.md. Infinite without springs and
     /// damping.
     double stable_step() const;
+    /// A sentence when a cloth is so far from the origin, or so fine, that single precision cannot resolve
+    /// its springs; else empty.
+    std::string resolution_warning() const;
     /// A sentence when the scene's step is larger than `stable_step`, else empty.
     std::string stability_warning() const;
 
-    /// The buffers of a cloth on the device, up to date and idle until the next advance(); nothing unless the
-    /// backend is vulkan. `position` alternates between two buffers, so ask again after every advance().
+    /// The buffers of a cloth on the device, up to date and idle until the next advance(), which submits to
+    /// queue 0 of the family; nothing unless the backend is vulkan. Throws Error(device_failure) when the
+    /// device is lost. `position` alternates between two buffers, so ask again after every advance().
     std::optional<DeviceBuffers> device_buffers(std::size_t cloth = 0);
     /// For Pliant's own renderer; null unless the backend is vulkan.
     DeviceState* device_state();

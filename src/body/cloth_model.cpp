@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "body/collider_motion.hpp"
@@ -176,6 +177,16 @@ void ClothModel::set_masses(const Cloth& cloth)
                                                       "mass would be 0; remove it from the "
                                                       "mesh, or give node_mass instead of density");
     }
+    constexpr double least = 1e-18, most = 1e18;  // kg; beyond, float has no inverse worth the name
+    for (std::size_t i = 0; i < count; ++i)
+        if (!(mass[i] >= least && mass[i] <= most)) {
+            char value[32];
+            std::snprintf(value, sizeof value, "%.3g", mass[i]);
+            throw Error(ErrorKind::bad_input, "cloth '" + cloth.name + "': node " + std::to_string(i) +
+                                                  " has a mass of " + value +
+                                                  " kg, and single precision can work with 1e-18 to 1e18 kg; "
+                                                  "change density, node_mass or size");
+        }
     masses.assign(mass.begin(), mass.end());
     inverse_masses.resize(count);
     std::transform(mass.begin(), mass.end(), inverse_masses.begin(), [](double m) { return 1 / m; });
@@ -278,6 +289,14 @@ std::span<const Triangle> ClothModel::triangles() const
             }
     }
     return triangles_;
+}
+
+double ClothModel::shortest_rest_length() const
+{
+    if (is_sheet()) return *std::min_element(sheet->rest_lengths.begin(), sheet->rest_lengths.end());
+    double shortest = std::numeric_limits<double>::infinity();
+    for (const Spring& spring : springs) shortest = std::min(shortest, spring.rest_length);
+    return shortest;
 }
 
 double ClothModel::stable_step() const

@@ -89,6 +89,9 @@ public:
     /// Triangles; those of a sheet are made when first asked for.
     std::span<const Triangle> triangles() const;
 
+    /// m; infinite without springs.
+    double shortest_rest_length() const;
+
     /// Largest safe step in s from Gershgorin's theorem: see docs/physics.md, "Stability".
     double stable_step() const;
 

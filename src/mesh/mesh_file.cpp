@@ -71,7 +71,9 @@ SurfaceMesh read_mesh(const std::filesystem::path& file)
     const MeshFormat& format = format_of("read", file);
     try {
         const std::string contents = file_contents(file);
-        return format.read({file.string(), contents});
+        SurfaceMesh mesh = format.read({file.string(), contents});
+        mesh.file = file;
+        return mesh;
     } catch (const std::bad_alloc&) {
         fail("read", file, "it does not fit into memory; use a smaller mesh");
     }

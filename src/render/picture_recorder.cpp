@@ -24,8 +24,11 @@ PictureRecorder::PictureRecorder(const std::filesystem::path& file, double frame
                     "--render '" + file.string() +
                         "' is not a picture or a video: it must be x.png (the last frame), "
                         "frames_%04d.png (a file for each frame, with one %d or %0Nd) or x.mp4 (a video)");
-    const AtomicFile probe(
-        name_of(0));  // a folder that is missing is better known before the run than after it
+    // A folder or an encoder that is missing is better known before the run than after it.
+    if (form_ == Form::video)
+        const VideoFile probe(file_, 2, 2, frame_rate_);
+    else
+        const AtomicFile probe(name_of(0));
 }
 
 bool PictureRecorder::wants(std::uint64_t frame_index, bool last) const

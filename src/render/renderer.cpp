@@ -1,6 +1,7 @@
 #include "render/renderer.hpp"
 
 #include <string>
+#include <utility>
 
 #include "pliant/error.hpp"
 
@@ -20,7 +21,7 @@ auto on_device(const vulkan::Device& device, Action&& action)
     }
 }
 
-const std::shared_ptr<vulkan::Device>& able(const std::shared_ptr<vulkan::Device>& device)
+std::shared_ptr<vulkan::Device> able(std::shared_ptr<vulkan::Device> device)
 {
     if (!device) throw Error(ErrorKind::bad_usage, "a renderer needs a device");
     if (!device->can_draw())
@@ -51,7 +52,7 @@ struct Renderer::Implementation {
 
 Renderer::Renderer(std::shared_ptr<vulkan::Device> device, const Scene& scene,
                    std::span<const ClothTopology> topologies)
-    : device_(able(device)),
+    : device_(able(std::move(device))),
       implementation_(
           on_device(*device_, [&] { return std::make_unique<Implementation>(device_, scene, topologies); }))
 {

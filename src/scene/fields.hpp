@@ -59,6 +59,7 @@ inline constexpr std::array check_names{"max_stretch",
                                         "highest_height"};
 
 inline constexpr std::uint32_t max_nodes = 16'777'216;  // 2^24: a node's index is exact in a float, too
+constexpr auto longest_side = max_nodes / 2;            // of a sheet with two rows
 
 // Beyond these, single precision has nothing sensible to say; they keep every sum and product finite.
 inline constexpr Range coordinate{-1e6, 1e6};
@@ -110,8 +111,8 @@ void fields(auto& at, Is<Springs> auto& springs)
 
 void fields(auto& at, Is<SheetOptions> auto& sheet)
 {
-    at.number("rows", sheet.rows, {2, max_nodes / 2}, "nodes", required);
-    at.number("columns", sheet.columns, {2, max_nodes / 2}, "nodes", required);
+    at.number("rows", sheet.rows, {2, longest_side}, "nodes", required);
+    at.number("columns", sheet.columns, {2, longest_side}, "nodes", required);
     at.number("width", sheet.width, extent, "m");
     at.number("height", sheet.height, extent, "m");
 }

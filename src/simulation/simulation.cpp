@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 #include <map>
+#include <string_view>
 
 #include "backend/cpu/kernels.hpp"
 #include "backend/pass_runner.hpp"
@@ -75,31 +76,41 @@ public:
         stable_step = std::numeric_limits<double>::infinity();
         for (const ClothModel& model : models) stable_step = std::min(stable_step, model.stable_step());
         refuse_too_many_steps();
-        make_runner(options);
-
         colliders_rest = all_rest(scene.colliders);
         place_colliders(1, 0);
         read_backs.resize(models.size());
-        Program program{next_program_id++, {}, parity};
-        append_measures(models, parity, 0, program.calls);
-        runner->run(program, input(0));
+        report.failure.reserve(256);
+        try {
+            start_runner(options);
+        } catch (const Error&) {
+            if (backend != Backend::vulkan || options.backend == Backend::vulkan || options.device >= 0)
+                throw;
+            backend = Backend::cpu;  // automatic: whatever the GPU's trouble is, the CPU does not share it
+            device_state = nullptr;
+            start_runner(options);
+        }
         take_measures();
     }
 
-    void make_runner(const SimulationOptions& options)
+    /// Makes the runner and lets it measure the start.
+    void start_runner(const SimulationOptions& options)
     {
         if (backend == Backend::vulkan) {
-            try {
-                auto vulkan = make_vulkan_runner(models, options);
-                device_state = vulkan.get();
-                runner = std::move(vulkan);
-            } catch (const Error&) {
-                if (options.backend == Backend::vulkan || options.device >= 0) throw;
-                backend = Backend::cpu;  // automatic: whatever the GPU's trouble is, the CPU has none
-            }
+            auto vulkan = make_vulkan_runner(models, options);
+            device_state = vulkan.get();
+            runner = std::move(vulkan);
+        } else {
+            runner =
+                backend == Backend::cpu ? make_cpu_runner(models, options) : make_reference_runner(models);
         }
-        if (backend == Backend::cpu) runner = make_cpu_runner(models, options);
-        if (backend == Backend::reference) runner = make_reference_runner(models);
+        Program program{next_program_id++, {}, parity};
+        append_measures(models, parity, 0, program.calls);
+        try {
+            runner->run(program, input(0));
+        } catch (const std::runtime_error& error) {
+            throw Error(ErrorKind::device_failure,
+                        "the device " + runner->device_name() + " failed at once: " + error.what());
+        }
     }
 
     /// Steps of a stretch of time, and how long each is.
@@ -130,8 +141,11 @@ public:
         const auto start = std::chrono::steady_clock::now();
         const auto [steps, step] = steps_of(duration);
         // A long stretch runs in pieces, so that programs stay short and few.
+        const std::uint64_t node_count = total(&ClothModel::node_count);
+        const std::uint64_t most =
+            std::clamp<std::uint64_t>(most_work_at_once / node_count, 1, most_steps_at_once);
         for (std::uint64_t left = steps; left > 0;) {
-            const auto piece = static_cast<std::uint32_t>(std::min<std::uint64_t>(left, most_steps_at_once));
+            const auto piece = static_cast<std::uint32_t>(std::min<std::uint64_t>(left, most));
             run_steps(piece, step);
             left -= piece;
         }
@@ -149,15 +163,17 @@ public:
         place_colliders(steps, step);
         runner->run(program, input(step));
         parity = program.parity_after;
-        report.simulated_seconds = on_frame(report.simulated_seconds + steps * step);
+        report.simulated_seconds = on_frame(report.simulated_seconds + steps * step, steps * step);
         report.steps += steps;
     }
 
     /// A time within a millionth of a frame of a whole frame is that frame's: sums of 1/60 must reach 5.0.
-    double on_frame(double time) const
+    double on_frame(double time, double advanced) const
     {
         const double frames = time * scene.time.frame_rate, nearest = std::round(frames);
-        return std::abs(frames - nearest) < 1e-6 ? nearest / scene.time.frame_rate : time;
+        const double tolerance =
+            std::min(1e-6, 0.25 * advanced * scene.time.frame_rate);  // never back to the start
+        return std::abs(frames - nearest) < tolerance ? nearest / scene.time.frame_rate : time;
     }
 
     const Program& frame_program(std::uint32_t steps)
@@ -171,6 +187,13 @@ public:
             found = programs.emplace(key, std::move(program)).first;
         }
         return found->second;
+    }
+
+    /// Keeps the reason in memory that is there already: this may be about memory.
+    void stop(std::string_view reason) noexcept
+    {
+        report.device_lost = true;
+        report.failure.assign(reason.substr(0, report.failure.capacity()));
     }
 
     void place_colliders(std::uint32_t steps, double step)
@@ -280,6 +303,8 @@ public:
     }
 
     static constexpr std::uint64_t most_steps_at_once = 4096;
+    /// Nodes times steps of one submission: drivers give up on a GPU that is busy for seconds.
+    static constexpr std::uint64_t most_work_at_once = 500'000'000;
     static constexpr std::size_t most_programs =
         32;  ///< a host that varies its frames does not fill the memory
 
@@ -325,15 +350,17 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 void Simulation::advance(double duration) noexcept
 {
     Report& report = implementation_->report;
-    if (!(duration > 0)) return;
+    if (!(duration > 0) || !std::isfinite(duration)) return;
     if (!report.finite || report.device_lost) {
         implementation_->idle_seconds += duration;
         return;
     }
     try {
         implementation_->advance(duration);
-    } catch (const std::exception&) {
-        report.device_lost = true;  // the device, or the memory for a program, is gone
+    } catch (const std::exception& error) {
+        implementation_->stop(error.what());
+    } catch (...) {
+        implementation_->stop("a job system threw what is no std::exception");
     }
 }
 
@@ -398,6 +425,31 @@ std::uint32_t Simulation::steps_per_frame() const
 }
 double Simulation::stable_step() const { return implementation_->stable_step; }
 
+std::string Simulation::resolution_warning() const
+{
+    constexpr double half_ulp = 0x1p-24, noticeable = 1e-3;  // of a rest length
+    for (std::size_t c = 0; c < implementation_->models.size(); ++c) {
+        const ClothModel& model = implementation_->models[c];
+        double farthest = 0;
+        for (const Vec3& x : model.positions)
+            farthest =
+                std::max({farthest, std::abs(double{x.x}), std::abs(double{x.y}), std::abs(double{x.z})});
+        const double shortest = model.shortest_rest_length();
+        if (farthest * half_ulp > noticeable * shortest) {
+            char text[256];
+            std::snprintf(
+                text, sizeof text,
+                "at %.3g m from the origin single precision rounds positions by %.2g m, which is more than a "
+                "thousandth of the shortest spring of %.3g m: move the cloth nearer to the origin, or use "
+                "fewer "
+                "nodes",
+                farthest, farthest * half_ulp, shortest);
+            return "cloth '" + scene().cloth(c).name + "': " + text;
+        }
+    }
+    return {};
+}
+
 std::string Simulation::stability_warning() const
 {
     const double step = step_length(), stable = stable_step();
@@ -412,9 +464,16 @@ std::string Simulation::stability_warning() const
 std::optional<DeviceBuffers> Simulation::device_buffers(std::size_t cloth)
 {
     if (!implementation_->device_state) return std::nullopt;
-    implementation_->models.at(cloth);  // refuses a cloth that does not exist
+    static_cast<void>(implementation_->models.at(cloth));  // refuses a cloth that does not exist
     const vulkan::Device& device = *implementation_->device_state->device();
-    const DeviceClothBuffers buffers = implementation_->device_state->drawable(cloth);
+    const DeviceClothBuffers buffers = [&] {
+        try {
+            return implementation_->device_state->drawable(cloth);
+        } catch (const std::runtime_error& error) {
+            throw Error(ErrorKind::device_failure,
+                        "the device " + device_name() + " failed: " + error.what());
+        }
+    }();
     const auto handle = [](vk::Buffer buffer) {
         return reinterpret_cast<std::uint64_t>(static_cast<VkBuffer>(buffer));
     };

@@ -17,7 +17,8 @@ using cpu::Kernels;
 
 constexpr std::size_t spring_pack = 16;  ///< springs are divided and padded in whole packs of the widest kind
 
-/// Nodes or springs under which a call stays on one thread: about as long as waking the others takes.
+/// Nodes or springs that make another thread worth waking, where the number of threads is Pliant's own
+/// choice; who asks for a number gets it.
 constexpr std::size_t least_work_per_thread = 1024;
 
 std::size_t round_up(std::size_t n, std::size_t unit) { return (n + unit - 1) / unit * unit; }
@@ -84,15 +85,13 @@ struct Work {
             multiple = spring_pack;
         } else {
             size = plain.size_of(*call);
-            if (description_of(call->pass).size == PassSize::block || call->pass == Pass::sheet_measure ||
-                call->pass == Pass::list_measure)
-                weight = block_size;
+            if (description_of(call->pass).size == PassSize::block) weight = block_size;
         }
     }
 
-    std::size_t part_count(std::size_t threads) const
+    std::size_t part_count(std::size_t threads, std::size_t least_work) const
     {
-        const std::size_t worthwhile = std::max<std::size_t>(1, size * weight / least_work_per_thread);
+        const std::size_t worthwhile = std::max<std::size_t>(1, size * weight / least_work);
         return std::min({threads, worthwhile, std::max<std::size_t>(1, size / multiple)});
     }
 
@@ -146,7 +145,9 @@ private:
 class CpuRunner final : public PassRunner {
 public:
     CpuRunner(std::span<const ClothModel> models, const SimulationOptions& options)
-        : kernels_(cpu::choose_kernels(options.instruction_set)), jobs_(options.job_system)
+        : kernels_(cpu::choose_kernels(options.instruction_set)),
+          jobs_(options.job_system),
+          least_work_(options.threads > 0 ? 1 : least_work_per_thread)
     {
         if (!jobs_) {
             own_jobs_ = cpu::make_job_system(options.threads);
@@ -189,7 +190,7 @@ public:
         return std::string("CPU, ") + kernels_.name + ", " + std::to_string(thread_count()) +
                (thread_count() == 1 ? " thread" : " threads");
     }
-    unsigned thread_count() const override { return jobs_->thread_count(); }
+    unsigned thread_count() const override { return std::max(1u, jobs_->thread_count()); }
 
 private:
     void run(const Work& work)
@@ -197,7 +198,7 @@ private:
         struct Context {
             const Work& work;
             std::size_t count;
-        } context{work, work.part_count(jobs_->thread_count())};
+        } context{work, work.part_count(thread_count(), least_work_)};
         if (context.count == 1) return work.part(0, 1);
         jobs_->run(
             static_cast<unsigned>(context.count),
@@ -210,6 +211,7 @@ private:
 
     const Kernels& kernels_;
     JobSystem* jobs_;
+    std::size_t least_work_;
     std::unique_ptr<JobSystem> own_jobs_;
     std::vector<CpuCloth> cloths_;
     std::vector<StepConstants<float>> constants_;

@@ -1,6 +1,7 @@
 #include "backend/cpu/jobs.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <thread>
 
 #include <tbb/global_control.h>
@@ -16,11 +17,11 @@ namespace {
 
 class TbbJobs final : public JobSystem {
 public:
-    explicit TbbJobs(unsigned threads)
-        : threads_(threads),
-          control_(tbb::global_control::max_allowed_parallelism, threads),
-          arena_(static_cast<int>(threads))
+    explicit TbbJobs(unsigned threads) : threads_(threads), arena_(static_cast<int>(threads))
     {
+        // A control holds for the whole program of our host, so it may only allow more threads, never fewer.
+        if (static_cast<int>(threads) > tbb::this_task_arena::max_concurrency())
+            control_.emplace(tbb::global_control::max_allowed_parallelism, threads);
     }
     unsigned thread_count() const override { return threads_; }
     void run(unsigned count, void (*task)(void*, unsigned), void* context) override
@@ -33,7 +34,7 @@ public:
 
 private:
     unsigned threads_;
-    tbb::global_control control_;  // allows more threads than cores when someone asks for them
+    std::optional<tbb::global_control> control_;
     tbb::task_arena arena_;
 };
 

@@ -58,9 +58,12 @@ PlainCloth<T>::PlainCloth(const ClothModel& cloth)
 template <class T>
 std::size_t PlainCloth<T>::size_of(const Call& call) const
 {
-    if (call.pass == Pass::sheet_measure || call.pass == Pass::list_measure) return tree.levels.front().count;
-    if (call.pass == Pass::measure_merge) return tree.levels[call.index].count;
-    return description_of(call.pass).size == PassSize::spring ? model.springs.size() : model.node_count();
+    switch (description_of(call.pass).size) {
+        case PassSize::block: return tree.levels[call.pass == Pass::measure_merge ? call.index : 0].count;
+        case PassSize::spring: return model.springs.size();
+        case PassSize::node: break;
+    }
+    return model.node_count();
 }
 
 template <class T>

@@ -43,9 +43,15 @@ int best_queue_family(const vk::raii::PhysicalDevice& physical)
     return compute;
 }
 
+/// Version, queue, and the limits that the compute passes need (shaders/cloth.glsl, shaders/measure.glsl).
 bool usable(const vk::raii::PhysicalDevice& physical)
 {
-    return physical.getProperties().apiVersion >= api_version && best_queue_family(physical) >= 0;
+    constexpr std::uint32_t storage_buffers = 17, invocations = 256, shared_memory = 256 * 32;
+    const auto properties = physical.getProperties();
+    return properties.apiVersion >= api_version && best_queue_family(physical) >= 0 &&
+           properties.limits.maxPerStageDescriptorStorageBuffers >= storage_buffers &&
+           properties.limits.maxComputeWorkGroupInvocations >= invocations &&
+           properties.limits.maxComputeSharedMemorySize >= shared_memory;
 }
 
 PhysicalDeviceInfo describe(const vk::raii::PhysicalDevice& physical, int index)
@@ -142,10 +148,10 @@ void Device::open(const DeviceOptions& options)
     for (auto& physical : vk::raii::PhysicalDevices(instance_))
         if (usable(physical)) candidates.push_back(std::move(physical));
     if (candidates.empty())
-        throw Error(
-            ErrorKind::device_failure,
-            "no Vulkan 1.2 device was found: install a driver (on Debian, mesa-vulkan-drivers) or run with "
-            "--backend cpu");
+        throw Error(ErrorKind::device_failure,
+                    "no Vulkan 1.2 device that can run the passes was found: install a driver (on Debian, "
+                    "mesa-vulkan-drivers) or run with "
+                    "--backend cpu");
     if (options.index >= static_cast<int>(candidates.size()) || options.index < -1)
         throw Error(ErrorKind::device_failure,
                     "device " + std::to_string(options.index) + " does not exist: there " +
@@ -165,6 +171,7 @@ void Device::open(const DeviceOptions& options)
     queue_family_ = static_cast<std::uint32_t>(best_queue_family(physical_));
     const auto family = physical_.getQueueFamilyProperties()[queue_family_];
     can_draw_ = static_cast<bool>(family.queueFlags & vk::QueueFlagBits::eGraphics);
+    timestamp_bits_ = family.timestampValidBits;
     timestamp_period_ = family.timestampValidBits > 0 ? physical_.getProperties().limits.timestampPeriod : 0;
 
     const float priority = 1.0f;

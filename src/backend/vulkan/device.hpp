@@ -66,6 +66,11 @@ public:
     std::uint32_t queue_family() const { return queue_family_; }
     bool can_draw() const { return can_draw_; }                    ///< the queue does graphics too
     double timestamp_period() const { return timestamp_period_; }  ///< ns per tick; 0 without timestamps
+    /// Ticks between two timestamps, of which only the queue's valid bits count.
+    std::uint64_t ticks_between(std::uint64_t first, std::uint64_t second) const
+    {
+        return (second - first) & (timestamp_bits_ >= 64 ? ~0ull : (1ull << timestamp_bits_) - 1);
+    }
 
     /// Throws Error(device_failure), naming the buffer, when the device cannot hold it.
     Buffer make_buffer(vk::DeviceSize size, vk::BufferUsageFlags usage, Memory memory,
@@ -100,6 +105,7 @@ private:
     std::uint32_t queue_family_ = 0;
     bool can_draw_ = false;
     double timestamp_period_ = 0;
+    std::uint32_t timestamp_bits_ = 0;
     vk::raii::Device device_{nullptr};
     vk::raii::Queue queue_{nullptr};
     vk::raii::CommandPool pool_{nullptr};

@@ -324,7 +324,8 @@ private:
         if (result != VK_SUCCESS) return;
         for (std::size_t s = 0; s < recording.stretches.size(); ++s) {
             const double nanoseconds =
-                static_cast<double>(ticks_[2 * s + 1] - ticks_[2 * s]) * device_->timestamp_period();
+                static_cast<double>(device_->ticks_between(ticks_[2 * s], ticks_[2 * s + 1])) *
+                device_->timestamp_period();
             clock_.add(recording.stretches[s].pass, nanoseconds * 1e-6, recording.stretches[s].calls);
         }
     }
@@ -346,7 +347,13 @@ private:
 std::unique_ptr<VulkanRunner> make_vulkan_runner(std::span<const ClothModel> cloths,
                                                  const SimulationOptions& options)
 {
-    return std::make_unique<Runner>(cloths, options);
+    try {
+        return std::make_unique<Runner>(cloths, options);
+    } catch (const vk::SystemError& error) {
+        throw Error(ErrorKind::device_failure, std::string("the Vulkan device cannot run the passes: ") +
+                                                   error.what() +
+                                                   "; update its driver, or run with --backend cpu");
+    }
 }
 
 }  // namespace pliant
