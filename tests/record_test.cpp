@@ -18,9 +18,12 @@
 #include "record/cache_file.hpp"
 #include "record/run_record.hpp"
 #include "scene/fields.hpp"
+#include "test_errors.hpp"
 
 namespace pliant {
 namespace {
+
+using test::error_of;
 
 /// An empty folder for the length of a test.
 class Record : public testing::Test {
@@ -73,18 +76,6 @@ std::vector<std::vector<std::string>> rows_of(const std::filesystem::path& csv)
         for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
     }
     return rows;
-}
-
-/// The kind of the Error that an action ends with, and its message.
-template <class Action>
-Error error_of(Action action)
-{
-    try {
-        action();
-    } catch (const Error& error) {
-        return error;
-    }
-    return {ErrorKind::diverged, "no error"};
 }
 
 Report report_at(double time, double max_stretch, double mean_stretch = 0, double penetration = 0)

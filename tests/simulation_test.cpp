@@ -12,6 +12,7 @@
 #include "backend/cpu/kernels.hpp"
 #include "backend/vulkan/device_state.hpp"
 #include "test_cloths.hpp"
+#include "test_errors.hpp"
 
 namespace pliant {
 namespace {
@@ -311,14 +312,7 @@ TEST(Simulation, RunsOnTheThreadsOfItsHost)
 
 TEST(Simulation, RefusesWhatCannotRun)
 {
-    const auto message_of = [](const auto& make) -> std::string {
-        try {
-            make();
-        } catch (const Error& error) {
-            return error.what();
-        }
-        return "";
-    };
+    const auto message_of = [](const auto& make) { return std::string(test::error_of(make).what()); };
     SimulationOptions options = test::on(Backend::cpu);
     options.instruction_set = "avx1024";
     EXPECT_NE(

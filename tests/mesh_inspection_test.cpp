@@ -1,0 +1,234 @@
+// Meshes are inspected. The collection of bad files is read where it exists beside the repository.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "test_meshes.hpp"
+
+#ifndef PLIANT_SHARED_DIR
+#define PLIANT_SHARED_DIR PLIANT_SOURCE_DIR "/../shared"
+#endif
+
+namespace pliant {
+namespace {
+
+namespace fs = std::filesystem;
+
+using test::tetrahedron;
+
+/// n x n vertices over the unit square.
+SurfaceMesh sheet(std::uint32_t n)
+{
+    SurfaceMesh mesh;
+    for (std::uint32_t row = 0; row < n; ++row)
+        for (std::uint32_t column = 0; column < n; ++column)
+            mesh.vertices.push_back({static_cast<float>(column) / static_cast<float>(n - 1), 0,
+                                     static_cast<float>(row) / static_cast<float>(n - 1)});
+    for (std::uint32_t row = 0; row + 1 < n; ++row)
+        for (std::uint32_t column = 0; column + 1 < n; ++column) {
+            const std::uint32_t i = row * n + column;
+            mesh.triangles.push_back({i, i + n, i + 1});
+            mesh.triangles.push_back({i + 1, i + n, i + n + 1});
+        }
+    return mesh;
+}
+
+SurfaceMesh moebius_strip(std::uint32_t n)
+{
+    SurfaceMesh mesh;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const double turn = 2 * std::numbers::pi * i / n;
+        for (const double side : {-0.3, 0.3}) {
+            const double radius = 1 + side * std::cos(turn / 2);
+            mesh.vertices.push_back(
+                to_float({radius * std::cos(turn), radius * std::sin(turn), side * std::sin(turn / 2)}));
+        }
+        const std::uint32_t a = 2 * i, b = 2 * i + 1;
+        const std::uint32_t c = i + 1 < n ? 2 * i + 2 : 1, d = i + 1 < n ? 2 * i + 3 : 0;
+        mesh.triangles.push_back({a, c, b});
+        mesh.triangles.push_back({b, c, d});
+    }
+    return mesh;
+}
+
+// ---- inspection
+
+TEST(MeshInspection, tetrahedron_is_closed)
+{
+    const MeshReport report = inspect_mesh(tetrahedron());
+    EXPECT_EQ(report.edges, 6u);
+    EXPECT_EQ(report.components, 1u);
+    EXPECT_EQ(report.euler_characteristic, 2);
+    EXPECT_TRUE(report.closed);
+    EXPECT_TRUE(report.oriented);
+    EXPECT_DOUBLE_EQ(report.volume, 1.0 / 6);
+    EXPECT_DOUBLE_EQ(report.area, 1.5 + std::sqrt(3.0) / 2);
+    EXPECT_DOUBLE_EQ(report.edge_min, 1);
+    EXPECT_DOUBLE_EQ(report.edge_max, std::sqrt(2.0));
+    EXPECT_DOUBLE_EQ(report.edge_mean, (1 + std::sqrt(2.0)) / 2);
+    EXPECT_EQ(report.bounds_max, (Vec3d{1, 1, 1}));
+    EXPECT_EQ(describe(report),
+              "4 vertices, 6 edges, 4 triangles in 1 component\n"
+              "surface: closed, consistently oriented, Euler characteristic 2\n"
+              "area: 2.36603 m^2\n"
+              "volume: 0.166667 m^3\n"
+              "edge length: 1 to 1.41421 m, mean 1.20711 m\n"
+              "bounds: (0, 0, 0) to (1, 1, 1) m\n");
+}
+
+TEST(MeshInspection, open_sheet_has_one_boundary_loop)
+{
+    const MeshReport report = inspect_mesh(sheet(5));
+    EXPECT_EQ(report.triangles, 32u);
+    EXPECT_EQ(report.boundary_edges, 16u);
+    EXPECT_EQ(report.boundary_loops, 1u);
+    EXPECT_EQ(report.euler_characteristic, 1);
+    EXPECT_FALSE(report.closed);
+    EXPECT_TRUE(report.oriented);
+    EXPECT_NEAR(report.area, 1, 1e-12);
+    EXPECT_EQ(report.non_manifold_vertices, 0u);
+}
+
+TEST(MeshInspection, hole_is_a_second_loop)
+{
+    SurfaceMesh mesh = sheet(5);
+    mesh.triangles.erase(mesh.triangles.begin() + 2 * 5, mesh.triangles.begin() + 2 * 6);  // the cell (1, 1)
+    const MeshReport report = inspect_mesh(mesh);
+    EXPECT_EQ(report.boundary_edges, 20u);
+    EXPECT_EQ(report.boundary_loops, 2u);
+    EXPECT_EQ(report.euler_characteristic, 0);
+}
+
+TEST(MeshInspection, moebius_strip_cannot_be_oriented)
+{
+    const MeshReport report = inspect_mesh(moebius_strip(24));
+    EXPECT_FALSE(report.oriented);
+    EXPECT_FALSE(report.closed);
+    EXPECT_EQ(report.boundary_edges, 48u);
+    EXPECT_EQ(report.boundary_loops, 1u);
+    EXPECT_EQ(report.euler_characteristic, 0);
+    EXPECT_EQ(report.non_manifold_edges + report.non_manifold_vertices, 0u);
+}
+
+TEST(MeshInspection, inside_out_volume_is_negative)
+{
+    SurfaceMesh mesh = tetrahedron();
+    for (Triangle& triangle : mesh.triangles) std::swap(triangle[0], triangle[1]);
+    const MeshReport report = inspect_mesh(mesh);
+    EXPECT_TRUE(report.closed && report.oriented);
+    EXPECT_DOUBLE_EQ(report.volume, -1.0 / 6);
+    EXPECT_NE(describe(report).find("inside out"), std::string::npos);
+}
+
+TEST(MeshInspection, fin_makes_an_edge_non_manifold)
+{
+    SurfaceMesh mesh = tetrahedron();
+    mesh.vertices.push_back({0.5f, -1, -1});
+    mesh.triangles.push_back({0, 1, 4});
+    const MeshReport report = inspect_mesh(mesh);
+    EXPECT_EQ(report.non_manifold_edges, 1u);
+    EXPECT_EQ(report.non_manifold_vertices, 0u);
+    EXPECT_EQ(report.boundary_edges, 2u);
+    EXPECT_FALSE(report.closed);
+}
+
+TEST(MeshInspection, two_solids_at_one_vertex_are_two_fans)
+{
+    SurfaceMesh mesh = tetrahedron();
+    for (const Vec3 v : {Vec3{-1, 0, 0}, Vec3{0, -1, 0}, Vec3{0, 0, -1}}) mesh.vertices.push_back(v);
+    for (const Triangle t : {Triangle{0, 4, 5}, {0, 6, 4}, {4, 6, 5}, {0, 5, 6}}) mesh.triangles.push_back(t);
+    const MeshReport report = inspect_mesh(mesh);
+    EXPECT_EQ(report.non_manifold_vertices, 1u);
+    EXPECT_EQ(report.boundary_edges + report.non_manifold_edges, 0u);
+    EXPECT_EQ(report.components, 1u);
+    EXPECT_FALSE(report.closed);
+    EXPECT_NE(describe(report).find("1 non-manifold vertex (more than one fan)\n"), std::string::npos);
+}
+
+TEST(MeshInspection, degenerate_duplicate_isolated_coincident)
+{
+    SurfaceMesh mesh = tetrahedron();
+    mesh.triangles.push_back({2, 1, 0});  // a duplicate, turned and shifted
+    mesh.triangles.push_back({0, 0, 1});  // a vertex twice
+    mesh.vertices.insert(mesh.vertices.end(), {{-0.0f, 0, 0}, {0.5f, 0, 0}, {7, 7, 7}});
+    mesh.triangles.push_back({0, 1, 5});  // no area
+    const MeshReport report = inspect_mesh(mesh);
+    EXPECT_EQ(report.duplicate_triangles, 1u);
+    EXPECT_EQ(report.degenerate_triangles, 2u);
+    EXPECT_EQ(report.coincident_vertices, 1u);
+    EXPECT_EQ(report.isolated_vertices, 2u);
+    EXPECT_FALSE(report.closed);
+}
+
+TEST(MeshInspection, meshes_of_almost_nothing)
+{
+    EXPECT_EQ(describe(inspect_mesh({})),
+              "0 vertices, 0 edges, 0 triangles in 0 components\nbounds: (0, 0, 0) to (0, 0, 0) m\n");
+    const MeshReport points = inspect_mesh({{{0, 0, 0}, {1, 2, 3}}, {}});
+    EXPECT_FALSE(points.closed || points.oriented);
+    EXPECT_EQ(points.isolated_vertices, 2u);
+    const MeshReport dot = inspect_mesh({{{1, 1, 1}}, {{0, 0, 0}}});
+    EXPECT_EQ(dot.edges, 0u);
+    EXPECT_EQ(dot.degenerate_triangles, 1u);
+    const MeshReport pillow = inspect_mesh({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}});
+    EXPECT_TRUE(pillow.closed && pillow.oriented);
+    EXPECT_EQ(pillow.volume, 0);
+}
+
+// ---- the collection beside the repository
+
+TEST(SharedMeshes, bad_files_are_refused_and_odd_ones_read)
+{
+    const fs::path bad = fs::path(PLIANT_SHARED_DIR) / "meshes" / "bad";
+    if (!fs::exists(bad / "manifest.json")) GTEST_SKIP() << "no collection of bad meshes at " << bad;
+    const auto manifest = nlohmann::json::parse(std::ifstream(bad / "manifest.json"));
+    std::size_t checked = 0;
+    for (const auto& entry : manifest.at("files")) {
+        const std::string name = entry.at("file"), parse = entry.at("parse");
+        SCOPED_TRACE(name + ": " + entry.at("what").get<std::string>());
+        const auto begin = std::chrono::steady_clock::now();
+        try {
+            const SurfaceMesh mesh = read_mesh(bad / name);
+            EXPECT_NE(parse, "error");
+            const MeshReport report = inspect_mesh(mesh);
+            const int volume_sign = (report.volume > 0) - (report.volume < 0);
+            const bool valid = report.oriented && report.volume > 0;
+            EXPECT_EQ(report.vertices, entry.value("V", report.vertices));
+            EXPECT_EQ(report.triangles, entry.value("triangles", entry.value("F", report.triangles)));
+            EXPECT_EQ(report.closed, entry.value("closed", report.closed));
+            EXPECT_EQ(report.components, entry.value("components", report.components));
+            EXPECT_NEAR(report.volume, entry.value("volume", report.volume), 1e-6);
+            EXPECT_EQ(volume_sign, entry.value("volume_sign", volume_sign));
+            EXPECT_EQ(valid, entry.value("valid", valid));
+        } catch (const Error& error) {
+            EXPECT_NE(parse, "ok") << error.what();
+            EXPECT_EQ(error.kind, ErrorKind::bad_input);
+            EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+            EXPECT_LT(std::string(error.what()).size(), 300 + bad.string().size());
+        }
+        EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+        ++checked;
+    }
+    std::cout << checked << " files of the manifest checked\n";
+}
+
+TEST(SharedMeshes, measures_agree_with_the_published_ones)
+{
+    const fs::path file = fs::path(PLIANT_SHARED_DIR) / "meshes" / "bunny_8k.ply";
+    if (!fs::exists(file)) GTEST_SKIP() << "no mesh at " << file;
+    const MeshReport report = inspect_mesh(read_mesh(file));
+    EXPECT_EQ(report.edges, 23871u);
+    EXPECT_NEAR(report.volume, 0.385162, 1e-6);
+    EXPECT_NEAR(report.area, 3.676803, 1e-6);
+    EXPECT_NEAR(report.edge_mean, 0.02316, 1e-5);
+    EXPECT_TRUE(report.closed && report.oriented);
+}
+
+}  // namespace
+}  // namespace pliant
