@@ -558,7 +558,11 @@ def a_plain_run_says_what_it_did(folder):
 @case
 def a_terminal_gets_a_progress_bar(folder):
     write_scene(folder)
-    master, slave = pty.openpty()
+    try:
+        master, slave = pty.openpty()
+    except OSError as error:  # a container without /dev/pts has no terminals to show a bar on
+        print(f"a terminal gets a progress bar: not looked at, since there is no terminal ({error})")
+        return
     try:
         process = subprocess.run([TOOL, "run", "scene.json", "--backend", "cpu"], cwd=folder,
                                  stdout=subprocess.DEVNULL, stderr=slave, timeout=PATIENCE)

@@ -489,35 +489,4 @@ std::optional<DeviceBuffers> Simulation::device_buffers(std::size_t cloth)
 
 DeviceState* Simulation::device_state() { return implementation_->device_state; }
 
-std::vector<DeviceListing> list_devices()
-{
-    std::vector<DeviceListing> devices;
-    const auto mebibytes = [](std::uint64_t bytes) { return std::to_string(bytes >> 20) + " MiB"; };
-    for (const auto& device : vulkan::list_physical_devices())
-        devices.push_back({Backend::vulkan, device.index, device.name, device.kind,
-                           "Vulkan " + std::to_string(VK_API_VERSION_MAJOR(device.api_version)) + "." +
-                               std::to_string(VK_API_VERSION_MINOR(device.api_version)) + ", memory " +
-                               mebibytes(device.memory) + ", largest buffer " +
-                               mebibytes(device.max_buffer_range) + ", shared memory " +
-                               std::to_string(device.max_shared_memory >> 10) + " KiB"});
-    std::string sets;
-    for (const cpu::Kernels* kernels : cpu::available_kernels())
-        sets += (sets.empty() ? "" : ", ") + std::string(kernels->name);
-    devices.push_back(
-        {Backend::cpu, 0, "CPU", cpu::available_kernels().back()->name, "instruction sets " + sets});
-    devices.push_back({Backend::reference, 0, "CPU", "serial, double", "the oracle of the tests"});
-    return devices;
-}
-
-const char* name_of(Backend backend)
-{
-    switch (backend) {
-        case Backend::automatic: return "auto";
-        case Backend::cpu: return "cpu";
-        case Backend::vulkan: return "vulkan";
-        case Backend::reference: return "reference";
-    }
-    return "";
-}
-
 }  // namespace pliant

@@ -1,10 +1,10 @@
 # Installs a build of Pliant into an empty folder, then builds and runs the consumer with nothing but that.
-#   cmake -DBUILD=build/release -DSOURCE=tests/consumer -DCOMPILER=c++ -DBUILD_TYPE=Release
+#   cmake -DBUILD=build/release -DSOURCE=tests/consumer -DCOMPILER=c++ -DGENERATOR=Ninja -DBUILD_TYPE=Release
 #         [-DFLAGS=address,undefined] -P test.cmake
 # FLAGS are the sanitizers of the build, if any.
 cmake_minimum_required(VERSION 3.25)
 
-foreach(variable BUILD SOURCE COMPILER)
+foreach(variable BUILD SOURCE COMPILER GENERATOR)
     if(NOT DEFINED ${variable})
         message(FATAL_ERROR "-D${variable}=... is missing")
     endif()
@@ -31,7 +31,7 @@ endif()
 step("install" ${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
 # No hint but the prefix: what the package needs must be found by the package itself.
 step("configure" ${CMAKE_COMMAND} -S ${SOURCE} -B ${work}/build -DCMAKE_PREFIX_PATH=${prefix}
-     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=${BUILD_TYPE} ${flags}
+     -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=${BUILD_TYPE} ${flags}
      -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF)
 step("build" ${CMAKE_COMMAND} --build ${work}/build)
 step("run the consumer" ${work}/build/consumer)
