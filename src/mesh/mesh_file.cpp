@@ -6,6 +6,7 @@
 #include <new>
 
 #include "files/atomic_file.hpp"
+#include "files/numbered_name.hpp"
 #include "mesh/mesh_formats.hpp"
 #include "mesh/text_scan.hpp"
 #include "pliant/error.hpp"
@@ -30,12 +31,9 @@ constexpr std::array formats = {MeshFormat{".ply", read_ply, write_ply},
 
 const MeshFormat& format_of(std::string_view action, const std::filesystem::path& file)
 {
-    const std::string ending = file.extension().string();
-    std::string lowered = ending;
-    for (char& c : lowered)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
     for (const MeshFormat& format : formats)
-        if (format.ending == lowered) return format;
+        if (format.ending == lower_case_ending(file)) return format;
+    const std::string ending = file.extension().string();
     const std::string found = ending.empty() ? "it has no ending" : "its ending is " + in_quotes(ending);
     fail(action, file, found + ", but meshes end in .ply or .obj");
 }

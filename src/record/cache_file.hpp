@@ -10,8 +10,9 @@
 namespace pliant {
 
 /// Writes by the ending of the name:
-///   x.pc2          point cache 2, which Blender's Mesh Cache modifier reads, and x.obj, the first frame's
-///   mesh, beside it seq_%04d.ply   one mesh a frame seq_%04d.obj   one mesh a frame
+/// - x.pc2: point cache 2, which Blender's Mesh Cache modifier reads, and beside it x.obj, the first mesh
+/// - seq_%04d.ply and seq_%04d.obj: one mesh a frame
+///
 /// The state before the first step is frame 0. Several cloths are written as one mesh, one after the other.
 class CacheFile {
 public:

@@ -155,8 +155,8 @@ public:
     }
 
 private:
-    static constexpr std::size_t most_recordings =
-        64;  ///< a host that varies its frames does not fill the memory
+    /// A host that varies its frames does not fill the memory.
+    static constexpr std::size_t most_recordings = 64;
     static constexpr std::uint32_t linear_group = 64;
     static constexpr std::uint32_t sheet_group_x = 32, sheet_group_y = 4;
 
