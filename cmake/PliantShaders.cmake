@@ -13,7 +13,7 @@ function(pliant_add_shaders target)
             add_custom_command(
                 OUTPUT ${output}
                 COMMAND ${GLSLC} --target-env=vulkan1.2 -O -Werror -mfmt=num -MD -MF ${output}.d -MT ${output}
-                        -I ${PROJECT_SOURCE_DIR}/src/laws -I ${folder} ${source} -o ${output}
+                        -I ${PROJECT_SOURCE_DIR}/src -I ${PROJECT_SOURCE_DIR}/src/laws -I ${folder} ${source} -o ${output}
                 DEPENDS ${source} DEPFILE ${output}.d
                 COMMENT "Compiling shader ${name}" VERBATIM)
             list(APPEND outputs ${output})

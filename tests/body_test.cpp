@@ -125,6 +125,19 @@ TEST(Mesh, EdgesAreStructuralAndOppositeVerticesBend)
     EXPECT_EQ(model.measured_spring_count(), 5u);
 }
 
+TEST(Mesh, ADiscIsAMesh)
+{
+    const ClothModel model = model_of(Cloth::disc({.radius = 0.5, .rings = 12, .density = 0.4}));
+    EXPECT_FALSE(model.is_sheet());
+    EXPECT_EQ(model.node_count(), 1 + 3u * 12 * 13);
+    EXPECT_EQ(model.triangle_count(), 6u * 12 * 12);
+    double mass = 0;
+    for (const double m : model.masses) mass += m;
+    EXPECT_NEAR(mass, 0.4 * 0.5 * 72 * 0.25 * std::sin(2 * std::numbers::pi / 72),
+                1e-6);                                                   // a 72-sided polygon
+    EXPECT_NEAR(model.positions[model.node_count() - 72].x, 0.5, 1e-7);  // where the hem begins
+}
+
 TEST(Mesh, RefusesAVertexWithoutMass)
 {
     SurfaceMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {5, 5, 5}}, {{0, 2, 1}}};

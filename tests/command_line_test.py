@@ -33,12 +33,14 @@ OLD = "of an older run\n"
 FORBIDDEN = ["terminate called", "what():", "std::", "basic_string", "vector::", "json.exception",
              "Traceback", "Assertion", "Sanitizer", "->", "FAILED", "\x1b"]
 
-SUMMARY_KEYS = ["scene", "backend", "device", "threads", "nodes", "springs", "triangles", "frames", "steps",
-                "simulated_seconds", "wall_seconds", "frames_per_second", "real_time_factor", "max_stretch",
-                "max_stretch_peak", "mean_stretch", "max_penetration", "finite", "state_hash", "passes"]
+SUMMARY_KEYS = ["scene", "method", "backend", "device", "threads", "nodes", "springs", "triangles", "frames",
+                "steps", "simulated_seconds", "wall_seconds", "frames_per_second", "real_time_factor",
+                "max_stretch", "max_stretch_peak", "mean_stretch", "max_penetration", "finite", "state_hash",
+                "passes"]
 STATISTICS_COLUMNS = ["frame", "time_s", "max_stretch", "mean_stretch", "max_penetration_m",
                       "max_speed_m_per_s", "kinetic_energy_J", "elastic_energy_J", "potential_energy_J",
-                      "non_finite_nodes", "wall_ms"]
+                      "non_finite_nodes", "wall_ms", "newton", "iterations", "residual", "active_constraints",
+                      "energy_lost_J"]
 RUN_OPTIONS = ["--backend", "--device", "--threads", "--instruction-set", "--frames", "--set", "--stats",
                "--summary", "--cache", "--render", "--stills", "--check", "--quiet"]
 SCENES = ["cloth_sphere", "hanging", "flag", "parity"]
@@ -76,6 +78,10 @@ BAD_COMMANDS = [
     ("run scene.json --frames 0", BAD_USAGE, ["--frames", "0", "1", "1000000000"]),
     ("run scene.json --frames -5", BAD_USAGE, ["--frames", "-5"]),
     ("run scene.json --frames 1.5", BAD_USAGE, ["--frames", "1.5"]),
+    ("bench nonsense", BAD_USAGE, ["nonsense", "constraint", "acad", "stability", "all"]),
+    ("bench --threads 0", BAD_USAGE, ["--threads", "0", "1"]),
+    ("bench stability --json a.json --csv a.json", BAD_USAGE, ["--json", "--csv", "a.json"]),
+    ("bench stability --json nowhere/a.json", BAD_INPUT, ["nowhere"]),
     ("run scene.json --frames many", BAD_USAGE, ["--frames", "many"]),
     ("run scene.json --frames 99999999999999999999", BAD_USAGE, ["--frames", "99999999999999999999"]),
     ("run scene.json --frames 2 --frames 3", BAD_USAGE, ["--frames"]),
@@ -148,7 +154,19 @@ BAD_SCENES = [
     ("an empty list of cloths", "cloths", [], ["cloths", "at least one"]),
     ("cloths as an object", "cloths", {}, ["cloths", "an object", "array"]),
     ("an unknown key", "gravitiy", [0, -9.81, 0], ["gravitiy", "unknown", '"gravity"']),
-    ("an unknown method", "method", "xpbd", ["method", '"xpbd"', "mass_spring"]),
+    ("an unknown method", "method", "xpbd", ["method", '"xpbd"', "mass_spring, constraint, acad"]),
+    ("a mistyped method", "method", "constrain", ["method", '"constrain"', '"constraint"']),
+    ("an unknown solver", "solver", "jacobi", ["solver", '"jacobi"', "newton_multigrid, paper"]),
+    ("no iterations", "newton_multigrid", {"newton_iterations": 0},
+     ["newton_multigrid.newton_iterations", "0 iterations", "between 1 and 1000"]),
+    ("colliders of no stiffness", "newton_multigrid", {"contact_stiffness": 0},
+     ["newton_multigrid.contact_stiffness", "0 N/m", "above 0"]),
+    ("a tolerance of zero", "paper", {"tolerance": 0}, ["paper.tolerance", "0", "above 0"]),
+    ("a stretch in per cent", "acad", {"activate_at": 10},
+     ["acad.activate_at", "10", "above 0 and at most 1"]),
+    ("a stretch upside down", "acad", {"activate_at": 0.05, "deactivate_at": 0.1},
+     ["acad.deactivate_at", "0.1", "activate_at, 0.05"]),
+    ("a flag in numbers", "acad", {"compression": 1}, ["acad.compression", "1", "true or false"]),
     ("a name with a slash", "name", "../evil", ["name", '"../evil"', "slash"]),
     ("a duration of zero", "time.duration", 0, ["time.duration", "0 s", "above 0"]),
     ("a duration in words", "time.duration", "5 s", ["time.duration", '"5 s"', "a number"]),
@@ -176,6 +194,12 @@ BAD_SCENES = [
      ["cloths[0].springs.shear.stifness", "unknown", '"stiffness"']),
     ("an endless stiffness", "cloths.0.springs", {"structural": {"stiffness": 1e300}},
      ["stiffness", "1e300 N/m"]),
+    ("an unknown role", "cloths.0.springs", {"bend": {"role": "sping"}},
+     ["cloths[0].springs.bend.role", '"sping"', '"spring"']),
+    ("a constraint without its method", "cloths.0.springs", {"shear": {"role": "constraint"}},
+     ["cloths[0].springs.shear.role", "mass_spring", "method constraint"]),
+    ("a compliance of zero", "cloths.0.springs", {"shear": {"compliance": 0}},
+     ["cloths[0].springs.shear.compliance", "0 m/N", "between 1e-9 and 1 m/N"]),
     ("springs that are no object", "cloths.0.springs", 7, ["cloths[0].springs", "7", "an object"]),
     ("density and node_mass", "cloths.0", {"sheet": {"rows": 2, "columns": 2}, "density": 1, "node_mass": 1},
      ["cloths[0].node_mass", "density"]),
@@ -185,6 +209,9 @@ BAD_SCENES = [
      ["cloths[0].formulation", '"node-centric"', "node_centric", "spring_list"]),
     ("an unknown corner", "cloths.0.pins", [{"corner": "topleft"}],
      ["cloths[0].pins[0].corner", '"topleft"', '"top_left"']),
+    ("a pin that moves back in time", "cloths.0.pins",
+     [{"corner": "top_left", "keyframes": [{"time": 2}, {"time": 1}]}],
+     ["cloths[0].pins[0].keyframes[1].time", "1 s", "2 s"]),
     ("a pin beyond the nodes", "cloths.0.pins", [{"index": 12}],
      ["cloths[0].pins[0].index", "12", "0 to 11"]),
     ("a negative pin", "cloths.0.pins", [{"index": -1}], ["cloths[0].pins[0].index", "-1"]),
@@ -483,6 +510,25 @@ def list_names_every_scene(folder):
     rows = dict(line.split(None, 1) for line in outcome.out.splitlines())
     expect(set(SCENES) <= set(rows), f"only {sorted(rows)}")
     expect(all(len(description) > 10 for description in rows.values()), "a scene without a description")
+
+
+@case
+def bench_measures(folder):
+    outcome = call(folder, "bench all --quick --backend cpu --threads 2 --json b.json --csv b.csv").expect(0)
+    expect(re.search(r"100 %.*case 16 of 16", outcome.err), f"no progress in {outcome.err!r}")
+    rows = json.loads((folder / "b.json").read_text())["rows"]
+    for suite in ["constraint", "acad", "stability"]:
+        of_suite = [row for row in rows if row["suite"] == suite]
+        expect(len(of_suite) > 5, f"{len(of_suite)} rows of {suite}")
+        expect_words(outcome.out, [f"{suite}: {len(of_suite)} rows", of_suite[0]["case"], of_suite[-1]["case"]])
+    for row in rows:
+        expect(row["value"] is not None and row["unit"] and row["nodes"] > 0, f"an empty row: {row}")
+        expect(row["verdict"] in (["met", "missed"] if row["bar"] else [""]), f"no verdict: {row}")
+    for row in rows:  # what does not depend on the machine
+        if row["measured"].startswith("V-cycles, ") or row["suite"] == "stability":
+            expect(row["verdict"] == "met", f"missed: {row}")
+    expect(len((folder / "b.csv").read_text().splitlines()) == len(rows) + 1, "b.csv has other rows")
+    expect_no_temporary(folder)
 
 
 @case

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "mesh/disc.hpp"
 #include "test_meshes.hpp"
 
 #ifndef PLIANT_SHARED_DIR
@@ -103,6 +104,50 @@ TEST(MeshInspection, hole_is_a_second_loop)
     EXPECT_EQ(report.boundary_edges, 20u);
     EXPECT_EQ(report.boundary_loops, 2u);
     EXPECT_EQ(report.euler_characteristic, 0);
+}
+
+TEST(Disc, is_an_irregular_mesh_without_faults)
+{
+    for (const std::uint32_t rings : {1u, 2u, 3u, 7u, 32u, 100u}) {
+        SCOPED_TRACE(rings);
+        const SurfaceMesh disc = make_disc(0.8, rings);
+        ASSERT_EQ(disc.vertices.size(), 1 + 3u * rings * (rings + 1));
+        ASSERT_EQ(disc.vertices.size(), disc_node_count(rings));
+        const MeshReport report = inspect_mesh(disc);
+        EXPECT_EQ(report.triangles, 6u * rings * rings);
+        EXPECT_EQ(report.components, 1u);
+        EXPECT_EQ(report.euler_characteristic, 1);
+        EXPECT_TRUE(report.oriented);
+        EXPECT_EQ(report.boundary_edges, 6u * rings);
+        EXPECT_EQ(report.boundary_loops, 1u);
+        EXPECT_EQ(report.isolated_vertices + report.non_manifold_edges + report.non_manifold_vertices +
+                      report.degenerate_triangles + report.duplicate_triangles + report.coincident_vertices,
+                  0u);
+        const double hem = 6.0 * rings, angle = 2 * std::numbers::pi / hem;  // the hem is a regular polygon
+        EXPECT_NEAR(report.area, 0.5 * hem * 0.8 * 0.8 * std::sin(angle), 1e-5);
+        EXPECT_GT(report.edge_min, 0.5 * 0.8 / rings);
+        EXPECT_LT(report.edge_max, 1.9 * 0.8 / rings);
+        if (rings > 1) {
+            EXPECT_GT(report.edge_max, 1.1 * report.edge_min);  // irregular
+        }
+    }
+}
+
+TEST(Disc, faces_up_everywhere)
+{
+    const SurfaceMesh disc = make_disc(1, 40);
+    for (const Triangle& t : disc.triangles) {
+        const Vec3d a = to_double(disc.vertices[t[0]]), b = to_double(disc.vertices[t[1]]),
+                    c = to_double(disc.vertices[t[2]]);
+        EXPECT_GT(cross(b - a, c - a).y, 0.2 / (40.0 * 40.0)) << t[0] << " " << t[1] << " " << t[2];
+    }
+}
+
+TEST(Disc, is_the_same_every_time)
+{
+    const SurfaceMesh first = make_disc(0.5, 9), second = make_disc(0.5, 9);
+    EXPECT_EQ(first.vertices, second.vertices);
+    EXPECT_EQ(first.triangles, second.triangles);
 }
 
 TEST(MeshInspection, moebius_strip_cannot_be_oriented)

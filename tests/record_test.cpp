@@ -153,6 +153,11 @@ TEST_F(Record, StatisticsHaveANamedColumnForEveryValue)
     report.measures.elastic_energy = 5;
     report.measures.potential_energy = -7;
     report.measures.non_finite = 8;
+    report.solver.newton_last = 3;
+    report.solver.iterations_last = 24;
+    report.solver.residual_last = 0.0625;
+    report.solver.active_last = 17;
+    report.solver.energy_lost = -0.5;
     StatisticsFile statistics(file);
     statistics.add(Report{}, 0);
     statistics.add(report, 9.5);
@@ -163,10 +168,11 @@ TEST_F(Record, StatisticsHaveANamedColumnForEveryValue)
     EXPECT_EQ(rows[0],
               (std::vector<std::string>{"frame", "time_s", "max_stretch", "mean_stretch", "max_penetration_m",
                                         "max_speed_m_per_s", "kinetic_energy_J", "elastic_energy_J",
-                                        "potential_energy_J", "non_finite_nodes", "wall_ms"}));
-    EXPECT_EQ(rows[1], std::vector<std::string>(11, "0"));
+                                        "potential_energy_J", "non_finite_nodes", "wall_ms", "newton",
+                                        "iterations", "residual", "active_constraints", "energy_lost_J"}));
+    EXPECT_EQ(rows[1], std::vector<std::string>(16, "0"));
     EXPECT_EQ(rows[2], (std::vector<std::string>{"6", "0.1", "0.25", "0.125", "0.5", "3", "4", "5", "-7", "8",
-                                                 "9.5"}));
+                                                 "9.5", "3", "24", "0.0625", "17", "-0.5"}));
 }
 
 TEST_F(Record, StatisticsOfADivergedRunKeepTheirColumns)
@@ -175,7 +181,7 @@ TEST_F(Record, StatisticsOfADivergedRunKeepTheirColumns)
     Report report =
         report_at(1, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN());
     for (double* energy : {&report.measures.kinetic_energy, &report.measures.elastic_energy,
-                           &report.measures.potential_energy})
+                           &report.measures.potential_energy, &report.solver.energy_lost})
         *energy = -std::numeric_limits<double>::max();  // as many digits as a number can have
     StatisticsFile statistics(file);
     statistics.add(report, 1);
@@ -294,6 +300,7 @@ TEST_F(Record, SummaryHasEveryKeyOfTheContract)
 
     const auto json = nlohmann::json::parse(bytes_of(file));
     const Names contract = {"scene",
+                            "method",
                             "backend",
                             "device",
                             "threads",
@@ -315,6 +322,8 @@ TEST_F(Record, SummaryHasEveryKeyOfTheContract)
                             "passes"};
     for (const std::string& key : contract) EXPECT_TRUE(json.contains(key)) << key;
     EXPECT_EQ(json.at("scene"), "two sheets");
+    EXPECT_EQ(json.at("method"), "mass_spring");
+    EXPECT_FALSE(json.contains("solver"));  // which mass_spring has none of
     EXPECT_EQ(json.at("backend"), "cpu");
     EXPECT_EQ(json.at("device"), simulation.device_name());
     EXPECT_EQ(json.at("threads"), 1);
@@ -325,6 +334,32 @@ TEST_F(Record, SummaryHasEveryKeyOfTheContract)
     EXPECT_FALSE(json.at("passes").empty());
     for (const auto& [pass, milliseconds] : json.at("passes").items()) EXPECT_GE(milliseconds, 0.0) << pass;
     EXPECT_EQ(names(), Names{"summary.json"});
+}
+
+TEST_F(Record, SummaryOfASolvedRunTellsOfItsSolver)
+{
+    Scene scene = two_sheets();
+    scene.method = Method::constraint;
+    scene.cloth_handle(0).pin(Edge::top);
+    Simulation simulation(scene, on_one_thread());
+    simulation.advance(1.0 / 60);
+    RunSummary().write(folder / "summary.json", simulation, 1);
+
+    const auto json = nlohmann::json::parse(bytes_of(folder / "summary.json"));
+    EXPECT_EQ(json.at("method"), "constraint");
+    const SolverReport& solver = simulation.report().solver;
+    ASSERT_EQ(json.contains("solver"), solver.used());
+    if (!solver.used()) return;
+    const nlohmann::json expected = {{"name", "newton_multigrid"},
+                                     {"newton_mean", solver.newton_mean},
+                                     {"newton_max", solver.newton_max},
+                                     {"iterations_mean", solver.iterations_mean},
+                                     {"iterations_max", solver.iterations_max},
+                                     {"residual_max", solver.residual_max},
+                                     {"energy_lost", solver.energy_lost},
+                                     {"active_mean", solver.active_mean},
+                                     {"active_max", solver.active_max}};
+    EXPECT_EQ(json.at("solver"), expected);
 }
 
 TEST_F(Record, SummaryOfADivergedRunIsStillJson)

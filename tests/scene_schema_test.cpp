@@ -63,6 +63,12 @@ public:
         const std::string by_default = names[static_cast<std::size_t>(value)];
         EXPECT_EQ(allowed.value("default", by_default), by_default) << path_ << key;
     }
+    void flag(const char* key, bool value)
+    {
+        const Json schema = property(key);
+        EXPECT_EQ(schema.value("type", ""), "boolean") << path_ << key;
+        EXPECT_EQ(schema.value("default", value), value) << path_ << key;
+    }
     void text(const char* key, const std::string&)
     {
         EXPECT_EQ(property(key).value("type", ""), "string") << path_ << key;

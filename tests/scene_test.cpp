@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <type_traits>
 
 #include "pliant/scene.hpp"
 #include "test_errors.hpp"
@@ -75,7 +76,7 @@ TEST(Scene, FieldsArriveWhereTheyBelong)
     EXPECT_EQ(std::get<SheetOptions>(cloth.shape).rows, 24U);
     EXPECT_EQ(cloth.density, 0.3);
     EXPECT_EQ(cloth.position, (Vec3d{0, 0.5, 0}));
-    EXPECT_EQ(std::get<Edge>(cloth.pins.at(1)), Edge::right);
+    EXPECT_EQ(std::get<Edge>(cloth.pins.at(1).where), Edge::right);
     const auto& sphere = std::get<Sphere>(scene.colliders.at(0));
     EXPECT_EQ(sphere.radius, 0.15);
     EXPECT_EQ(sphere.keyframes.at(2).time, 2);
@@ -91,13 +92,105 @@ TEST(Scene, EveryKindOfPinAndColliderIsRead)
         "colliders": [{"plane": {}}, {"capsule": {"start": [0, 0, 0], "end": [0, 1, 0], "radius": 0.2}},
         {"box": {"centre": [0, 0, 0], "size": [1, 2, 3], "response": "paper"}}]})");
     const auto& pins = scene.cloth(0).pins;
-    EXPECT_EQ(std::get<std::uint32_t>(pins.at(0)), 8U);
-    EXPECT_EQ(std::get<Corner>(pins.at(1)), Corner::bottom_right);
-    EXPECT_EQ(std::get<Edge>(pins.at(2)), Edge::bottom);
-    EXPECT_EQ(std::get<Region>(pins.at(3)).max, (Vec3d{1, 2, 3}));
+    EXPECT_EQ(std::get<std::uint32_t>(pins.at(0).where), 8U);
+    EXPECT_EQ(std::get<Corner>(pins.at(1).where), Corner::bottom_right);
+    EXPECT_EQ(std::get<Edge>(pins.at(2).where), Edge::bottom);
+    EXPECT_EQ(std::get<Region>(pins.at(3).where).max, (Vec3d{1, 2, 3}));
     EXPECT_EQ(std::get<Plane>(scene.colliders.at(0)).normal, (Vec3d{0, 1, 0}));
     EXPECT_EQ(std::get<Capsule>(scene.colliders.at(1)).radius, 0.2);
     EXPECT_EQ(std::get<Box>(scene.colliders.at(2)).response, ContactResponse::paper);
+}
+
+TEST(Scene, TheOptionsOfMethodsAreRead)
+{
+    const Scene scene = scene_of(R"({"pliant": 1, "method": "constraint", "solver": "paper",
+        "newton_multigrid": {"newton_iterations": 7, "newton_tolerance": 0.01, "linear_iterations": 9,
+            "linear_tolerance": 0.2, "smoothing": 2, "resists": "both", "contact_stiffness": 2e4,
+            "friction_speed": 0.01},
+        "paper": {"tolerance": 1e-5, "max_iterations": 300, "compliance": 1e-8},
+        "acad": {"activate_at": 0.2, "deactivate_at": 0.1, "compression": true, "target": "rest",
+            "compliance": 1e-5},
+        "cloths": [{"sheet": {"rows": 3, "columns": 3}, "springs": {
+            "structural": {"role": "constraint", "limit": 0.01, "compliance": 1e-7},
+            "shear": {"role": "spring"}, "bend": {"role": "off"}}}]})");
+    EXPECT_EQ(scene.method, Method::constraint);
+    EXPECT_EQ(scene.solver, Solver::paper);
+    EXPECT_EQ(scene.newton_multigrid.newton_iterations, 7U);
+    EXPECT_EQ(scene.newton_multigrid.newton_tolerance, 0.01);
+    EXPECT_EQ(scene.newton_multigrid.linear_iterations, 9U);
+    EXPECT_EQ(scene.newton_multigrid.linear_tolerance, 0.2);
+    EXPECT_EQ(scene.newton_multigrid.smoothing, 2U);
+    EXPECT_EQ(scene.newton_multigrid.resists, Resists::both);
+    EXPECT_EQ(scene.newton_multigrid.contact_stiffness, 2e4);
+    EXPECT_EQ(scene.newton_multigrid.friction_speed, 0.01);
+    EXPECT_EQ(scene.paper.tolerance, 1e-5);
+    EXPECT_EQ(scene.paper.max_iterations, 300U);
+    EXPECT_EQ(scene.paper.compliance, 1e-8);
+    EXPECT_EQ(scene.acad.activate_at, 0.2);
+    EXPECT_EQ(scene.acad.deactivate_at, 0.1);
+    EXPECT_TRUE(scene.acad.compression);
+    EXPECT_EQ(scene.acad.target, AcadTarget::rest);
+    EXPECT_EQ(scene.acad.compliance, 1e-5);
+    const Springs& springs = scene.cloth(0).springs;
+    EXPECT_EQ(springs.structural.role, SpringRole::constraint);
+    EXPECT_EQ(springs.structural.limit, 0.01);
+    EXPECT_EQ(springs.structural.compliance, 1e-7);
+    EXPECT_EQ(springs.structural.stiffness, 1000);
+    EXPECT_EQ(springs.shear.role, SpringRole::spring);
+    EXPECT_EQ(springs.bend.role, SpringRole::off);
+
+    // A copy, as each simulation makes one, has them all, too.
+    const Scene copy = scene;  // NOLINT(performance-unnecessary-copy-initialization)
+    EXPECT_EQ(copy.method, Method::constraint);
+    EXPECT_EQ(copy.solver, Solver::paper);
+    EXPECT_EQ(copy.newton_multigrid.newton_iterations, 7U);
+    EXPECT_EQ(copy.paper.max_iterations, 300U);
+    EXPECT_EQ(copy.acad.deactivate_at, 0.1);
+}
+
+TEST(Scene, MethodsAndSolversHaveTheNamesThatFilesGiveThem)
+{
+    for (const Method method : {Method::mass_spring, Method::constraint, Method::acad})
+        EXPECT_EQ(read_scene("hanging", {std::string("method=") + name_of(method)}).method, method);
+    for (const Solver solver : {Solver::newton_multigrid, Solver::paper})
+        EXPECT_EQ(read_scene("hanging", {std::string("solver=") + name_of(solver)}).solver, solver);
+    EXPECT_STREQ(name_of(Method::acad), "acad");
+    EXPECT_STREQ(name_of(Solver::newton_multigrid), "newton_multigrid");
+}
+
+TEST(Scene, PinsMayMove)
+{
+    const Scene scene = scene_of(R"({"pliant": 1, "cloths": [{"sheet": {"rows": 3, "columns": 3}, "pins": [
+        {"edge": "left"},
+        {"corner": "top_right", "keyframes": [{"time": 0},
+            {"time": 2, "position": [0.1, 0, 0], "rotation": [0, 90, 0]}]}]}]})");
+    const auto& pins = scene.cloth(0).pins;
+    EXPECT_TRUE(pins.at(0).keyframes.empty());
+    EXPECT_EQ(std::get<Corner>(pins.at(1).where), Corner::top_right);
+    ASSERT_EQ(pins.at(1).keyframes.size(), 2U);
+    EXPECT_EQ(pins.at(1).keyframes[1].time, 2);
+    EXPECT_EQ(pins.at(1).keyframes[1].position, (Vec3d{0.1, 0, 0}));
+    EXPECT_EQ(pins.at(1).keyframes[1].rotation, (Vec3d{0, 90, 0}));
+}
+
+TEST(Scene, EverythingThatPinsIsAnAttachment)
+{
+    Cloth cloth = Cloth::sheet({.rows = 3, .columns = 3});
+    const Pin corner = Corner::top_right;
+    cloth.pin(corner).pin(Edge::top).pin(std::uint32_t{4}).pin(Region{{0, 0, 0}, {1, 1, 1}});
+    cloth.pin({Edge::left, {{.time = 0}, {.time = 2, .position = {0.1, 0, 0}}}});
+    cloth.pins.push_back(Edge::bottom);
+    cloth.pins.emplace_back(corner);
+    Attachment attachment = cloth.pins.at(4);
+    cloth.pin(attachment);  // not const: a copy, and no attempt to make a Pin of it
+    ASSERT_EQ(cloth.pins.size(), 8U);
+    EXPECT_EQ(std::get<Corner>(cloth.pins[0].where), Corner::top_right);
+    EXPECT_EQ(std::get<std::uint32_t>(cloth.pins[2].where), 4U);
+    EXPECT_EQ(std::get<Edge>(cloth.pins[4].where), Edge::left);
+    EXPECT_EQ(cloth.pins[4].keyframes.at(1).position, (Vec3d{0.1, 0, 0}));
+    EXPECT_EQ(cloth.pins[7].keyframes.size(), 2U);
+    static_assert(!std::is_constructible_v<Attachment, const char*> &&
+                  !std::is_constructible_v<Attachment, double>);
 }
 
 TEST(Scene, DtSetsTheFrameRate)
@@ -117,6 +210,20 @@ TEST(Scene, MeshFilesAreRelativeToTheScene)
     EXPECT_EQ(std::get<SurfaceMesh>(read.cloth(0).shape).triangles.size(), 1U);
     EXPECT_EQ(read.cloth(0).scale, 2);
     EXPECT_EQ(read.name, scene.path.stem().string());
+}
+
+TEST(Scene, ReadsADisc)
+{
+    const Scene scene = scene_of(R"({"pliant": 1, "cloths": [
+        {"disc": {"radius": 0.25, "rings": 5}, "density": 0.2, "pins": [{"index": 90}]}, {"disc": {"rings": 1}}]})");
+    const auto& disc = std::get<DiscOptions>(scene.cloth(0).shape);
+    EXPECT_EQ(disc.radius, 0.25);
+    EXPECT_EQ(disc.rings, 5U);
+    EXPECT_EQ(scene.cloth(0).density, 0.2);
+    EXPECT_EQ(std::get<DiscOptions>(scene.cloth(1).shape).radius, 0.5);
+    const Cloth built = Cloth::disc({.radius = 0.25, .rings = 5, .density = 0.2});
+    EXPECT_EQ(std::get<DiscOptions>(built.shape).rings, 5U);
+    EXPECT_EQ(built.density, 0.2);
 }
 
 TEST(Scene, OverridesChangeTheDocumentBeforeItIsRead)
@@ -204,7 +311,11 @@ TEST(Scene, WrongFilesAreExplained)
         {R"({"pliant": 1})", {"cloths is empty", "at least one cloth"}},
         {with(", \"gravitation\": 1"), {"gravitation is unknown"}},
         {with(", \"new\\nline\": 1"), {"new?line is unknown", "allowed here: ", "gravity"}},
-        {with(R"(, "method": "xpbd")"), {"method is \"xpbd\"", "must be mass_spring"}},
+        {with(R"(, "method": "xpbd")"),
+         {"method is \"xpbd\"", "must be one of mass_spring, constraint, acad"}},
+        {with(R"(, "method": "constrain")"), {"method is \"constrain\"", "did you mean \"constraint\"?"}},
+        {with(R"(, "method": true)"), {"method is true", "one of mass_spring"}},
+        {with(R"(, "solver": "multigrid")"), {"solver is \"multigrid\"", "newton_multigrid, paper"}},
         {with(R"(, "name": 5)"), {"name is 5", "must be a string"}},
         {with(R"(, "name": "../up")"), {"name is \"../up\"", "can name a file"}},
         {with(R"(, "cloths ": 1)"), {"cloths  is unknown", "did you mean \"cloths\"?"}},
@@ -243,11 +354,51 @@ TEST(Scene, WrongFilesAreExplained)
         {with(R"(, "check": {"max_stretch": 0.3})"),
          {"check.max_stretch is 0.3", "an array of 2 numbers, [min, max]"}},
         {with(R"(, "check": {"max_stretch": [1, 0]})"), {"check.max_stretch is [1, 0]", "in this order"}},
+        {with(R"(, "check": {"solver.residual": [0, 1]})"),
+         {"check.solver.residual is unknown", "\"solver.residual_max\"?"}},
+        // methods and solvers
+        {with(R"(, "newton_multigrid": {"newton_iterations": 0})"),
+         {"newton_multigrid.newton_iterations is 0 iterations", "between 1 and 1000 iterations"}},
+        {with(R"(, "newton_multigrid": {"newton_iterations": 1001})"), {"newton_iterations is 1001"}},
+        {with(R"(, "newton_multigrid": {"newton_tolerance": 1.5})"),
+         {"newton_multigrid.newton_tolerance is 1.5", "between 0 and 1"}},
+        {with(R"(, "newton_multigrid": {"linear_iterations": 0})"),
+         {"newton_multigrid.linear_iterations is 0 V-cycles", "between 1 and 10000 V-cycles"}},
+        {with(R"(, "newton_multigrid": {"linear_tolerance": -0.1})"),
+         {"newton_multigrid.linear_tolerance is -0.1", "between 0 and 1"}},
+        {with(R"(, "newton_multigrid": {"smoothing": 9})"),
+         {"newton_multigrid.smoothing is 9", "a whole number between 1 and 8"}},
+        {with(R"(, "newton_multigrid": {"resists": "compression"})"),
+         {"newton_multigrid.resists is \"compression\"", "one of tension, both"}},
+        {with(R"(, "newton_multigrid": {"contact_stiffness": 0})"),
+         {"newton_multigrid.contact_stiffness is 0 N/m", "above 0 and at most 1e9 N/m"}},
+        {with(R"(, "newton_multigrid": {"friction_speed": 2})"),
+         {"newton_multigrid.friction_speed is 2 m/s", "above 0 and at most 1 m/s"}},
+        {with(R"(, "newton_multigrid": {"newton_iteration": 3})"),
+         {"newton_multigrid.newton_iteration is unknown", "\"newton_iterations\"?"}},
+        {with(R"(, "paper": {"tolerance": 0})"), {"paper.tolerance is 0,", "above 0 and at most 1"}},
+        {with(R"(, "paper": {"max_iterations": 100001})"),
+         {"paper.max_iterations is 100001 iterations", "between 1 and 100000 iterations"}},
+        {with(R"(, "paper": {"compliance": -1e-6})"),
+         {"paper.compliance is -1e-6 m/N", "between 0 and 1 m/N"}},
+        {with(R"(, "acad": {"activate_at": 0})"), {"acad.activate_at is 0,", "above 0 and at most 1"}},
+        {with(R"(, "acad": {"deactivate_at": -0.01})"), {"acad.deactivate_at is -0.01", "between 0 and 1"}},
+        {with(R"(, "acad": {"deactivate_at": 0.11})"),
+         {"acad.deactivate_at is 0.11", "must not exceed activate_at, 0.1"}},
+        {with(R"(, "acad": {"compression": "yes"})"), {"acad.compression is \"yes\"", "true or false"}},
+        {with(R"(, "acad": {"compression": 1})"), {"acad.compression is 1", "true or false"}},
+        {with(R"(, "acad": {"target": "half"})"), {"acad.target is \"half\"", "one of threshold, rest"}},
+        {with(R"(, "acad": {"compliance": 0})"), {"acad.compliance is 0 m/N", "between 1e-9 and 1 m/N"}},
+        {with(R"(, "acad": 0.1)"), {"acad is 0.1", "an object"}},
         // cloths
         {R"({"pliant": 1, "cloths": [{}]})", {"cloths[0] has none of sheet, mesh"}},
         {R"({"pliant": 1, "cloths": [{"shet": {}}]})",
          {"cloths[0].shet is unknown", "did you mean \"sheet\"?"}},
         {with("", R"(, "mesh": {"file": "a.obj"})"), {"cloths[0].mesh is given beside sheet", "exactly one"}},
+        {R"({"pliant": 1, "cloths": [{"disc": {}}]})", {"cloths[0].disc.rings is missing"}},
+        {R"({"pliant": 1, "cloths": [{"disc": {"rings": 2365}}]})", {"cloths[0].disc.rings is 2365", "2364"}},
+        {R"({"pliant": 1, "cloths": [{"disc": {"rings": 2}, "pins": [{"index": 19}]}]})",
+         {"cloths[0].pins[0].index is 19", "0 to 18"}},
         {R"({"pliant": 1, "cloths": [{"sheet": {"rows": 2}}]})", {"cloths[0].sheet.columns is missing"}},
         {R"({"pliant": 1, "cloths": [{"sheet": {"rows": 1, "columns": 2}}]})",
          {"cloths[0].sheet.rows is 1 nodes", "between 2"}},
@@ -266,6 +417,18 @@ TEST(Scene, WrongFilesAreExplained)
          {"cloths[0].springs.bend.stifness is unknown", "\"stiffness\"?"}},
         {with("", R"(, "springs": {"structural": {"damping": 2e6}})"),
          {"structural.damping is 2e6 N s/m", "1e6 N s/m"}},
+        {with("", R"(, "springs": {"bend": {"role": "sping"}})"),
+         {"cloths[0].springs.bend.role is \"sping\"", "did you mean \"spring\"?"}},
+        {with("", R"(, "springs": {"structural": {"role": "constraint"}})"),
+         {"cloths[0].springs.structural.role is constraint", "mass_spring has no constraints",
+          "use method constraint"}},
+        {with(R"(, "method": "acad")", R"(, "springs": {"bend": {"role": "constraint"}})"),
+         {"cloths[0].springs.bend.role is constraint", "acad makes its own constraints",
+          "use method constraint"}},
+        {with("", R"(, "springs": {"shear": {"limit": 5}})"),
+         {"cloths[0].springs.shear.limit is 5", "between 0 and 1"}},
+        {with("", R"(, "springs": {"shear": {"compliance": 1e-10}})"),
+         {"cloths[0].springs.shear.compliance is 1e-10 m/N", "between 1e-9 and 1 m/N"}},
         {with("", R"(, "damping": true)"), {"cloths[0].damping is true", "between 0 and 1000 1/s"}},
         {with("", R"(, "thickness": 1.5)"), {"cloths[0].thickness is 1.5 m", "between 0 and 1 m"}},
         {with("", R"(, "position": [0, 2e6, 0])"), {"cloths[0].position[1] is 2e6 m", "1e6 m"}},
@@ -281,6 +444,16 @@ TEST(Scene, WrongFilesAreExplained)
         {with("", R"(, "pins": [{"box": {"min": [0, 0, 0]}}])"), {"cloths[0].pins[0].box.max is missing"}},
         {with("", R"(, "pins": [{"box": {"min": [0, 1, 0], "max": [1, 0, 1]}}])"),
          {"box.min is [0, 1, 0] m", "[1, 0, 1] m"}},
+        {with("", R"(, "pins": [{"keyframes": [{"time": 0}]}])"),
+         {"cloths[0].pins[0] has none of index, corner, edge, box"}},
+        {with("", R"(, "pins": [{"index": 0, "keyframes": [{"position": [0, 1, 0]}]}])"),
+         {"cloths[0].pins[0].keyframes[0].time is missing"}},
+        {with("", R"(, "pins": [{"index": 0, "keyframes": [{"time": 2}, {"time": 2}]}])"),
+         {"cloths[0].pins[0].keyframes[1].time is 2 s", "later than the keyframe before it, 2 s"}},
+        {with("", R"(, "pins": [{"index": 0, "keyframes": [{"time": 2, "position": [2e6, 0, 0]}]}])"),
+         {"cloths[0].pins[0].keyframes[0].position[0] is 2e6 m"}},
+        {with("", R"(, "pins": [{"index": 0, "keyframe": []}])"),
+         {"cloths[0].pins[0].keyframe is unknown", "\"keyframes\"?"}},
         // colliders
         {colliding(R"({"sphere": {"center": [0, 0, 0], "radius": 1}})"),
          {"colliders[0].sphere.center is unknown", "\"centre\"?"}},
@@ -384,8 +557,28 @@ TEST(Scene, ScenesMadeInCodeAreValidatedToo)
             {"cloths[0].sheet.rows is 0 nodes"});
     refused([](Scene& s) { s.cloth_handle(0)->shape = SheetOptions{.density = 1}; },
             {"cloths[0].sheet.density is set"});
+    refused([](Scene& s) { s.cloth_handle(0)->shape = DiscOptions{.rings = 0}; },
+            {"cloths[0].disc.rings is 0 rings", "between 1"});
+    refused([](Scene& s) { s.cloth_handle(0)->shape = DiscOptions{.density = 1}; },
+            {"cloths[0].disc.density is set"});
     refused([](Scene& s) { s.cloth_handle(0).pin(20U); }, {"cloths[0].pins[0].index is 20", "0 to 19"});
     refused([](Scene& s) { s.cloth_handle(0).pin(static_cast<Corner>(9)); }, {"corner is no. 9", "top_left"});
+    refused(
+        [](Scene& s) {
+            s.cloth_handle(0).pin({Corner::top_left, {{.time = 1}, {.time = 0.5}}});
+        },
+        {"cloths[0].pins[0].keyframes[1].time is 0.5 s", "1 s"});
+    refused([](Scene& s) { s.method = static_cast<Method>(7); }, {"method is no. 7", "mass_spring"});
+    refused([](Scene& s) { s.newton_multigrid.newton_tolerance = nan; }, {"newton_tolerance is nan"});
+    refused([](Scene& s) { s.newton_multigrid.smoothing = 0; }, {"newton_multigrid.smoothing is 0"});
+    refused([](Scene& s) { s.acad.deactivate_at = 0.5; }, {"acad.deactivate_at is 0.5", "activate_at, 0.1"});
+    refused([](Scene& s) { s.cloth_handle(0)->springs.bend.role = SpringRole::constraint; },
+            {"cloths[0].springs.bend.role is constraint", "method constraint"});
+    Scene constrained = small_scene();
+    constrained.method = Method::constraint;
+    constrained.cloth_handle(0)->springs.bend.role = SpringRole::constraint;
+    constrained.acad = {.activate_at = 0.05, .deactivate_at = 0.05};
+    EXPECT_NO_THROW(validate(constrained));
     refused([](Scene& s) { s.add(Sphere{.centre = {}, .radius = 0}); },
             {"colliders[0].sphere.radius is 0 m"});
     refused([&](Scene& s) { s.add(Cloth::mesh(triangle)).pin(Edge::top); },

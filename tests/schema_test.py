@@ -16,6 +16,15 @@ REFERENCE = (ROOT / "docs/scenes.md").read_text()
 
 GOOD = {"pliant": 1, "cloths": [{"sheet": {"rows": 3, "columns": 4}}]}
 
+# (what is done, values put at paths into GOOD)
+ALSO_GOOD = [
+    ("a constraint of the method constraint",
+     {"method": "constraint", "cloths.0.springs.bend": {"role": "constraint", "limit": 0.1}}),
+    ("springs that are off", {"method": "acad", "cloths.0.springs.bend.role": "off"}),
+    ("a disc", {"cloths.0": {"disc": {"rings": 8}, "formulation": "spring_list"}}),
+    ("a pin that moves", {"cloths.0.pins": [{"index": 0, "keyframes": [{"time": 0}, {"time": 1}]}]}),
+]
+
 # (what is wrong, path into GOOD, value put there)
 BAD = [
     ("no version", "pliant", None),
@@ -24,6 +33,23 @@ BAD = [
     ("an empty list of cloths", "cloths", []),
     ("an unknown key", "colour", "red"),
     ("an unknown method", "method", "xpbd"),
+    ("an unknown solver", "solver", "jacobi"),
+    ("no Newton iterations", "newton_multigrid.newton_iterations", 0),
+    ("broken V-cycles", "newton_multigrid.linear_iterations", 2.5),
+    ("a tolerance above one", "newton_multigrid.newton_tolerance", 1.5),
+    ("too much smoothing", "newton_multigrid.smoothing", 9),
+    ("an unknown direction", "newton_multigrid.resists", "compression"),
+    ("colliders of no stiffness", "newton_multigrid.contact_stiffness", 0),
+    ("friction at no speed", "newton_multigrid.friction_speed", 0),
+    ("an option of another solver", "newton_multigrid.max_iterations", 5),
+    ("a tolerance of zero", "paper.tolerance", 0),
+    ("too many iterations", "paper.max_iterations", 200000),
+    ("a negative compliance", "paper.compliance", -1),
+    ("a stretch in per cent", "acad.activate_at", 10),
+    ("a negative stretch", "acad.deactivate_at", -0.1),
+    ("a flag in numbers", "acad.compression", 1),
+    ("an unknown target", "acad.target", "half"),
+    ("a constraint without compliance", "acad.compliance", 0),
     ("a name with a slash", "name", "a/b"),
     ("a duration of zero", "time.duration", 0),
     ("a duration in words", "time.duration", "5 s"),
@@ -43,12 +69,23 @@ BAD = [
     ("a mesh without a file", "cloths.0", {"mesh": {}}),
     ("node-centric on a mesh", "cloths.0", {"mesh": {"file": "a.obj"}, "formulation": "node_centric"}),
     ("a corner of a mesh", "cloths.0", {"mesh": {"file": "a.obj"}, "pins": [{"corner": "top_left"}]}),
+    ("a disc without rings", "cloths.0", {"disc": {"radius": 1}}),
+    ("a disc of too many rings", "cloths.0", {"disc": {"rings": 2365}}),
+    ("a disc of no size", "cloths.0", {"disc": {"rings": 3, "radius": 0}}),
+    ("an edge of a disc", "cloths.0", {"disc": {"rings": 3}, "pins": [{"edge": "top"}]}),
+    ("a sheet and a disc", "cloths.0.disc", {"rings": 3}),
     ("density and node_mass", "cloths.0", {"sheet": {"rows": 2, "columns": 2}, "density": 1, "node_mass": 1}),
     ("a negative stiffness", "cloths.0.springs.shear.stiffness", -5),
     ("a mistyped key", "cloths.0.springs.shear.stifness", 5),
+    ("an unknown role", "cloths.0.springs.bend.role", "rod"),
+    ("a constraint of the method mass_spring", "cloths.0.springs.shear.role", "constraint"),
+    ("a limit in per cent", "cloths.0.springs.shear.limit", 5),
+    ("a compliance of zero", "cloths.0.springs.shear.compliance", 0),
     ("too much damping", "cloths.0.damping", 2000),
     ("an unknown corner", "cloths.0.pins", [{"corner": "topleft"}]),
     ("a pin of two kinds", "cloths.0.pins", [{"corner": "top_left", "index": 0}]),
+    ("a pin of no kind", "cloths.0.pins", [{"keyframes": [{"time": 0}]}]),
+    ("a pin that moves at no time", "cloths.0.pins", [{"index": 0, "keyframes": [{"position": [0, 1, 0]}]}]),
     ("a box without max", "cloths.0.pins", [{"box": {"min": [0, 0, 0]}}]),
     ("an unknown collider", "colliders", [{"torus": {}}]),
     ("a collider of two shapes", "colliders", [{"sphere": {"centre": [0, 0, 0], "radius": 1}, "plane": {}}]),
@@ -121,6 +158,11 @@ def main():
     for example in re.findall(r"```json\n(.*?)```", REFERENCE, re.DOTALL):
         accept("the example in docs/scenes.md", example)
     accept("the smallest scene", json.dumps(GOOD))
+    for what, changes in ALSO_GOOD:
+        scene = GOOD
+        for path, value in changes.items():
+            scene = changed(scene, path, value)
+        accept(what, json.dumps(scene))
     for what, path, value in BAD:
         expect(not validator.is_valid(changed(GOOD, path, value)), f"{what} is accepted")
     for key in sorted(set(keys_of(SCHEMA))):

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <vector>
 
 #include "backend/vulkan/shader_code.hpp"
 #include "solve/pass.hpp"
@@ -20,6 +21,16 @@ const std::set<std::uint32_t> forbidden_operations = {
     136, 148};  // division and OpDot are not correctly rounded in Vulkan
 constexpr std::uint32_t op_extended_instruction = 12;
 
+/// The passes whose bits are promised to be equal on all backends that run in float. The constraint solver
+/// may use fused multiply-add (docs/architecture.md), so that neither promise below is its own.
+std::vector<std::uint32_t> exact_passes()
+{
+    std::vector<std::uint32_t> passes;
+    for (std::uint32_t p = 0; p < all_passes().size(); ++p)
+        if (!is_solver_pass(static_cast<Pass>(p))) passes.push_back(p);
+    return passes;
+}
+
 template <class Function>
 void for_each_instruction(std::span<const std::uint32_t> code, Function&& f)
 {
@@ -29,7 +40,7 @@ void for_each_instruction(std::span<const std::uint32_t> code, Function&& f)
 
 TEST(ComputeShaders, HaveNoInstructionThatMayBeContracted)
 {
-    for (std::uint32_t p = 0; p < all_passes().size(); ++p) {
+    for (const std::uint32_t p : exact_passes()) {
         const auto code = vulkan::compute_shader(static_cast<Pass>(p));
         std::set<std::uint32_t> exact;
         for_each_instruction(code, [&](std::uint32_t op, auto words) {
@@ -49,7 +60,7 @@ TEST(ComputeShaders, HaveNoInstructionThatMayBeContracted)
 
 TEST(ComputeShaders, UseNoBuiltInWhoseRoundingIsOpen)
 {
-    for (std::uint32_t p = 0; p < all_passes().size(); ++p)
+    for (const std::uint32_t p : exact_passes())
         for_each_instruction(vulkan::compute_shader(static_cast<Pass>(p)), [&](std::uint32_t op, auto words) {
             EXPECT_NE(op, op_extended_instruction)
                 << all_passes()[p].name << ": extended instruction " << (words.size() > 4 ? words[4] : 0);

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "bench_command.hpp"
 #include "commands.hpp"
 #include "pliant/error.hpp"
 #include "pliant/version.hpp"
@@ -97,6 +98,40 @@ void add_run(CLI::App& app, RunOptions& options)
     run->add_flag("--quiet", options.quiet, "Print nothing but warnings and errors");
 }
 
+void add_bench(CLI::App& app, BenchOptions& options)
+{
+    CLI::App* bench = app.add_subcommand("bench", "Measure the constraint solver on this machine");
+    bench->footer(
+        "Examples:\n"
+        "  pliant bench constraint --json constraint.json\n"
+        "  pliant bench stability --quick\n"
+        "A missed bar is a result, not an error: the exit code stays 0.\n");
+    bench->add_option("suite", options.suite, "constraint, acad, stability or all")
+        ->check(CLI::IsMember({"constraint", "acad", "stability", "all"}))
+        ->type_name("SUITE");
+    static const std::map<std::string, Backend> backends = {{"auto", Backend::automatic},
+                                                            {"cpu", Backend::cpu},
+                                                            {"vulkan", Backend::vulkan},
+                                                            {"reference", Backend::reference}};
+    bench
+        ->add_option_function<std::string>(
+            "--backend",
+            [&options](const std::string& name) { options.simulation.backend = backends.at(name); },
+            "auto (a real GPU when there is one, else cpu), cpu, vulkan, or reference (serial, double)")
+        ->check(CLI::IsMember({"auto", "cpu", "vulkan", "reference"}))
+        ->type_name("auto|cpu|vulkan|reference");
+    bench
+        ->add_option("--threads", options.simulation.threads,
+                     "Threads of the cpu backend (default: one for each core)")
+        ->check(CLI::Range(1, 1024))
+        ->type_name("N");
+    bench->add_option("--only", options.only, "Only the cases with this in their names, as in --only hanging")
+        ->type_name("TEXT");
+    bench->add_flag("--quick", options.quick, "Small cloths and few frames: to see that it works");
+    bench->add_option("--json", options.json_file, "All rows, JSON")->type_name("F.json");
+    bench->add_option("--csv", options.csv_file, "All rows, CSV")->type_name("F.csv");
+}
+
 int dispatch(int argc, char** argv)
 {
     CLI::App app("Pliant: cloth and soft bodies in real time, on any Vulkan GPU and on the CPU", "pliant");
@@ -106,6 +141,8 @@ int dispatch(int argc, char** argv)
 
     RunOptions run_options;
     add_run(app, run_options);
+    BenchOptions bench_options;
+    add_bench(app, bench_options);
     app.add_subcommand("list", "The built-in scenes");
     app.add_subcommand("info", "Backends and devices of this machine, with their limits");
     CLI::App* check =
@@ -124,11 +161,14 @@ int dispatch(int argc, char** argv)
     } catch (const CLI::Success& success) {
         return app.exit(success);  // --help, --version
     } catch (const CLI::ParseError& error) {
-        const bool running = app.got_subcommand("run");
-        std::fprintf(stderr, "pliant: %s; see 'pliant %s--help'\n", error.what(), running ? "run " : "");
+        const char* command = app.got_subcommand("run")     ? "run "
+                              : app.got_subcommand("bench") ? "bench "
+                                                            : "";
+        std::fprintf(stderr, "pliant: %s; see 'pliant %s--help'\n", error.what(), command);
         return static_cast<int>(ErrorKind::bad_usage);
     }
     if (app.got_subcommand("run")) return run_command(run_options);
+    if (app.got_subcommand("bench")) return bench_command(bench_options);
     if (app.got_subcommand("list")) return list_command();
     if (app.got_subcommand("info")) return info_command();
     return check_command(check_target, check_overrides);

@@ -6,8 +6,9 @@
 
 namespace pliant::tool {
 
-Progress::Progress(std::uint64_t total, bool quiet)
+Progress::Progress(std::uint64_t total, bool quiet, const char* unit)
     : total_(total > 0 ? total : 1),
+      unit_(unit),
       quiet_(quiet),
       terminal_(isatty(STDERR_FILENO) != 0),
       start_(Clock::now()),
@@ -27,7 +28,7 @@ void Progress::update(std::uint64_t done, const std::string& note)
     if (!terminal_) {
         if (done != total_ && percent / 10 <= tenths_said_) return;
         tenths_said_ = percent / 10;
-        std::fprintf(stderr, "%3u %%  frame %llu of %llu  %s\n", percent,
+        std::fprintf(stderr, "%3u %%  %s %llu of %llu  %s\n", percent, unit_,
                      static_cast<unsigned long long>(done), static_cast<unsigned long long>(total_),
                      note.c_str());
         return;
@@ -38,9 +39,9 @@ void Progress::update(std::uint64_t done, const std::string& note)
     constexpr unsigned width = 30;
     std::string bar(width, '.');
     bar.replace(0, width * done / total_, std::string(width * done / total_, '#'));
-    std::fprintf(stderr, "\r[%s] %3u %%  frame %llu of %llu  %s  %.0f s left \033[K", bar.c_str(), percent,
-                 static_cast<unsigned long long>(done), static_cast<unsigned long long>(total_), note.c_str(),
-                 left);
+    std::fprintf(stderr, "\r[%s] %3u %%  %s %llu of %llu  %s  %.0f s left \033[K", bar.c_str(), percent,
+                 unit_, static_cast<unsigned long long>(done), static_cast<unsigned long long>(total_),
+                 note.c_str(), left);
     std::fflush(stderr);
     shown_ = true;
 }

@@ -9,12 +9,13 @@ namespace pliant::tool {
 
 class Progress {
 public:
-    Progress(std::uint64_t total, bool quiet);
+    /// `unit` names what is counted.
+    Progress(std::uint64_t total, bool quiet, const char* unit = "frame");
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// `done` of `total` frames; `note` is shown beside.
+    /// `done` of `total`; `note` is shown beside.
     void update(std::uint64_t done, const std::string& note);
     /// Clears the bar, so that other lines can be printed.
     void clear();
@@ -22,6 +23,7 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
     std::uint64_t total_;
+    const char* unit_;
     bool quiet_, terminal_, shown_ = false;
     std::uint64_t tenths_said_ = 0;
     Clock::time_point start_, last_;

@@ -5,11 +5,14 @@
 // allowed.
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -31,11 +34,71 @@ struct Region {
 /// What to hold in place: a node index (unsigned, row by row on a sheet), a named corner or edge of a sheet,
 /// or every node in a region.
 using Pin = std::variant<std::uint32_t, Corner, Edge, Region>;
+/// What a pin can be made of.
+template <class Where>
+concept PinLike = std::constructible_from<Pin, Where>;
 
-/// Stiffness and damping of one class of spring.
+/// Where something that moves is at a time; in between, positions and angles are interpolated linearly.
+struct Keyframe {
+    double time = 0;      ///< s, increasing
+    Vec3d position = {};  ///< m, added to the thing's own
+    Vec3d rotation = {};  ///< degrees about x, then y, then z, around the thing's centre
+};
+
+/// A pin and how it moves. Anything that a pin can be made of is an attachment that stands still, so that
+/// `cloth.pin(Corner::top_left)` reads well; a moving one is
+/// `cloth.pin({Edge::left, {{.time = 0}, {.time = 2, .position = {0.1, 0, 0}}}})`.
+struct Attachment {
+    Attachment() = default;
+    template <PinLike Where>
+    Attachment(Where&& node_or_place, std::vector<Keyframe> motion = {})  // implicit, see above
+        : where(std::forward<Where>(node_or_place)), keyframes(std::move(motion))
+    {
+    }
+
+    Pin where;
+    /// Empty, and it stands still. Rotations are about the centre (the mean) of the nodes that this pin
+    /// holds, where they stand at the start.
+    std::vector<Keyframe> keyframes = {};
+};
+
+/// How cloth is stepped.
+enum class Method {
+    mass_spring,  ///< springs alone, with explicit steps (the cloth paper, section 2)
+    constraint,   ///< structural and shear springs that do not give beyond their limit, with implicit steps
+    acad,         ///< springs that become constraints while they are stretched too far (the cloth paper)
+};
+/// What enforces constraints, of the methods constraint and acad.
+enum class Solver {
+    newton_multigrid,  ///< Newton's method on the step's energy; linear systems by multigrid V-cycles
+    paper,             ///< conjugate gradients for the Lagrange multipliers, as the cloth paper has it
+};
+/// What a class of springs is.
+enum class SpringRole {
+    /// With the method constraint, structural and shear springs are constraints and bend springs are springs;
+    /// with another method, all are springs.
+    automatic,
+    spring,      ///< force by stiffness and damping
+    constraint,  ///< holds its length; only with the method constraint
+    off,         ///< not there: no force, whatever the other numbers say
+};
+/// Which way a constraint pulls.
+enum class Resists {
+    tension,  ///< against being longer than at rest alone, as a thread does
+    both,     ///< against being shorter, too, as a rod does
+};
+
+/// Stiffness and damping of one class of spring, and whether it is a constraint.
+///
+/// A constraint with limit 0 pulls with (l - l0) / compliance as soon as it is stretched, and its stiffness
+/// is not used. With a limit above 0 it is a spring of its stiffness for stretch up to the limit (and for
+/// compression), and beyond the limit it has the compliance in addition.
 struct SpringParameters {
     double stiffness = 0;  ///< N/m, 0 to 1e9; 0 together with damping 0: no force
     double damping = 0;    ///< N s/m, 0 to 1e6
+    SpringRole role = SpringRole::automatic;
+    double limit = 0;          ///< of a constraint: stretch (l - l0) / l0 before it acts, 0 to 1; 0.01 is 1 %
+    double compliance = 1e-6;  ///< m/N of a constraint beyond its limit, 1e-9 to 1
 };
 
 /// The three classes of the cloth paper (section 2.1). On a triangle mesh an edge is structural, and a bend
@@ -64,6 +127,15 @@ struct SheetOptions {
     std::optional<double> node_mass = {};  ///< kg per node, instead of density
 };
 
+/// A round cloth, flat and at rest, lying in the x-z plane: an irregular triangle mesh of 1 + 3 rings (rings
+/// + 1) nodes. Node 0 is in the middle, and the last 6 rings nodes are its hem.
+struct DiscOptions {
+    double radius = 0.5;                   ///< m
+    std::uint32_t rings = 32;              ///< 1 to 2364, of nodes around the one in the middle
+    std::optional<double> density = {};    ///< kg/m2; 0.3 when neither this nor node_mass is given
+    std::optional<double> node_mass = {};  ///< kg per node, instead of density
+};
+
 /// A cloth of any shape.
 struct MeshOptions {
     std::optional<double> density = {};    ///< kg/m2; 0.3 when neither this nor node_mass is given
@@ -75,18 +147,19 @@ struct MeshOptions {
 struct Cloth {
     static Cloth sheet(const SheetOptions& options);
     static Cloth mesh(SurfaceMesh mesh, const MeshOptions& options = {});
+    static Cloth disc(const DiscOptions& options);
 
-    Cloth& pin(const Pin& where)
+    Cloth& pin(const Attachment& attachment)
     {
-        pins.push_back(where);
+        pins.push_back(attachment);
         return *this;
     }
 
     std::string name = "cloth";
-    std::variant<SheetOptions, SurfaceMesh> shape;
+    std::variant<SheetOptions, SurfaceMesh, DiscOptions> shape;
     /// kg/m2; a sheet shares its mass equally, a mesh by the area around a vertex. 0.3 when neither this nor
-    /// node_mass is set. The one of SheetOptions is moved here by `sheet`; in `shape` itself it must stay
-    /// empty.
+    /// node_mass is set. The one of SheetOptions or DiscOptions is moved here by `sheet` or `disc`; in
+    /// `shape` itself it must stay empty.
     std::optional<double> density;
     std::optional<double> node_mass;  ///< kg per node, instead of density
     double scale = 1.0;               ///< of a mesh
@@ -97,20 +170,13 @@ struct Cloth {
     Formulation formulation = Formulation::automatic;
     double damping = 0.1;      ///< 1/s; every velocity loses this fraction a second
     double thickness = 0.002;  ///< m; the distance that contact keeps between a node and a collider
-    std::vector<Pin> pins;
+    std::vector<Attachment> pins;
 };
 
 /// What a collider does with a node that enters it.
 enum class ContactResponse {
     coulomb,  ///< remove the approaching normal velocity, Coulomb friction, keep the rest
     paper,    ///< Algorithm 4 of the cloth paper as printed (its velocity has no units; see docs/physics.md)
-};
-
-/// Where a moving collider is at a time; in between, positions and angles are interpolated linearly.
-struct Keyframe {
-    double time = 0;      ///< s, increasing
-    Vec3d position = {};  ///< m, added to the collider's own
-    Vec3d rotation = {};  ///< degrees about x, then y, then z, around the collider's centre
 };
 
 // friction: Coulomb coefficient, 0 to 10. keyframes: empty, and it stands still.
@@ -156,6 +222,55 @@ struct Air {
     double lift = 0.5;    ///< coefficient, across it
 };
 
+/// What conjugate gradients go by in the solver newton_multigrid.
+enum class Preconditioner {
+    multigrid,  ///< a V-cycle over a hierarchy of coarser cloths
+    jacobi,     ///< each node's own block alone; to compare with
+    none,       ///< plain conjugate gradients; to compare with
+};
+
+/// The solver newton_multigrid: each step minimises its incremental potential (Martin et al. 2011,
+/// Example-Based Elastic Materials, section 4) by Newton's method.
+struct NewtonMultigridOptions {
+    std::uint32_t newton_iterations = 8;  ///< 1 to 1000: at most, in a step
+    /// 0 to 1: a step is solved when its residual has fallen to this fraction of the step's load (what
+    /// inertia and gravity ask of it), both in the norm of the energy; 0 never stops early.
+    double newton_tolerance = 0.1;
+    std::uint32_t linear_iterations = 6;  ///< 1 to 10,000 V-cycles: at most, in a Newton iteration
+    double linear_tolerance = 0.2;  ///< 0 to 1: the same for each linear system, against the smaller of the
+                                    ///< load and its own residual
+    std::uint32_t smoothing = 1;    ///< 1 to 8: degree of the smoother before and after each level
+    Preconditioner preconditioner = Preconditioner::multigrid;
+    Resists resists = Resists::tension;  ///< of all constraints
+    double contact_stiffness = 1e5;      ///< N/m, above 0 to 1e9: of a node against a collider
+    /// m/s, above 0 to 1: below this speed of sliding, friction grows linearly with it; Coulomb's law
+    /// regularised as by Li et al. 2020, Incremental Potential Contact, section 5.
+    double friction_speed = 1e-3;
+};
+
+/// The solver paper: conjugate gradients on the system of the Lagrange multipliers (Va, Choi, Hong 2021).
+struct PaperOptions {
+    double tolerance = 1e-4;             ///< above 0 to 1: relative residual at which a step is solved
+    std::uint32_t max_iterations = 200;  ///< 1 to 100,000: of conjugate gradients, in a step
+    double compliance = 0;               ///< m/N, 0 to 1: of every constraint; 0: they do not give at all
+};
+
+/// To which length an active constraint of the method acad pulls its spring.
+enum class AcadTarget {
+    threshold,  ///< the length at which it became one, l0 (1 + activate_at)
+    rest,       ///< the length at rest, l0
+};
+/// The method acad: a spring that is stretched too far is a constraint in that step.
+struct AcadOptions {
+    double activate_at = 0.10;  ///< above 0 to 1: stretch (l - l0) / l0 beyond which a spring is a constraint
+    /// 0 to activate_at, which is the default: stretch below which a constraint becomes a spring again. A gap
+    /// between the two keeps springs from switching in every step.
+    std::optional<double> deactivate_at = {};
+    bool compression = false;  ///< springs that are compressed by more than activate_at, too
+    AcadTarget target = AcadTarget::threshold;
+    double compliance = 1e-6;  ///< m/N, 1e-9 to 1: of an active constraint
+};
+
 /// Length and resolution of time.
 struct TimeOptions {
     double duration = 5.0;       ///< s, of a run from the command line
@@ -184,7 +299,7 @@ struct Check {
 /// Names a cloth of a scene, and lets it be changed further. Valid as long as the scene lives.
 class ClothHandle {
 public:
-    ClothHandle& pin(const Pin& where);
+    ClothHandle& pin(const Attachment& attachment);
     Cloth* operator->() const { return cloth_; }
     Cloth& operator*() const { return *cloth_; }
     std::size_t index() const { return index_; }
@@ -208,6 +323,11 @@ public:
 
     std::string name = "scene";
     std::string description;
+    Method method = Method::mass_spring;
+    Solver solver = Solver::newton_multigrid;  ///< of the methods constraint and acad
+    NewtonMultigridOptions newton_multigrid;
+    PaperOptions paper;
+    AcadOptions acad;
     Vec3d gravity{0, -9.81, 0};  ///< m/s2
     Air air;
     TimeOptions time;
@@ -234,6 +354,10 @@ void validate(const Scene& scene);
 /// time.duration=2`. Throws Error(bad_input) naming file, line or JSON path, value, unit and the nearest
 /// valid name.
 Scene read_scene(const std::string& file_or_name, const std::vector<std::string>& overrides = {});
+
+/// As a scene file writes it.
+const char* name_of(Method method);
+const char* name_of(Solver solver);
 
 /// A built-in scene: its name and what it shows.
 struct SceneListing {

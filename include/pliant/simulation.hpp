@@ -63,6 +63,28 @@ struct FrameMeasures {
     std::uint64_t non_finite = 0;  ///< nodes with a position or velocity that is not finite
 };
 
+/// What the constraint solver did since the start, over all steps and cloths. A residual is a force relative
+/// to the load of its step.
+struct SolverReport {
+    std::uint64_t solves = 0;          ///< steps of a cloth that were solved
+    double newton_mean = 0;            ///< Newton iterations per solve
+    std::uint32_t newton_max = 0;      ///< in one step
+    double iterations_mean = 0;        ///< linear iterations (V-cycles; of the solver paper, of CG) per step
+    std::uint32_t iterations_max = 0;  ///< in one step
+    double residual_max = 0;           ///< largest residual that a step ended with
+    /// J: work that the residual forces took from the cloth, against the method's own balance.
+    double energy_lost = 0;
+    double active_mean = 0;             ///< constraints that were active, per step
+    std::uint64_t active_max = 0;       ///< in one step
+    std::uint64_t active_last = 0;      ///< in the last step
+    std::uint32_t newton_last = 0;      ///< Newton iterations of the last step
+    std::uint32_t iterations_last = 0;  ///< linear iterations of the last step
+    double residual_last = 0;           ///< that the last step ended with
+
+    /// False with the method mass_spring, and before the first step.
+    bool used() const { return solves > 0; }
+};
+
 /// Counters of a simulation.
 struct Report {
     std::uint64_t frames = 0;
@@ -73,6 +95,7 @@ struct Report {
     bool device_lost = false;  ///< a step could not be run: the device, or the memory for it, was not there
     std::string failure;       ///< and why
     FrameMeasures measures;
+    SolverReport solver;  ///< zeros with the method mass_spring
     // The first non-finite node, when there is one.
     std::size_t bad_cloth = 0;
     std::uint64_t bad_node = 0;
@@ -126,6 +149,9 @@ public:
     std::span<const Vec3> normals(std::size_t cloth = 0);
     /// The largest stretch of the structural and shear springs at each node, for colouring.
     std::span<const float> strains(std::size_t cloth = 0);
+    /// The largest constraint force in N of the springs at each node (their Lagrange multipliers); 0 where
+    /// none acts, and everywhere with the method mass_spring.
+    std::span<const float> multipliers(std::size_t cloth = 0);
     /// Triangles of a cloth, fixed over time.
     std::span<const Triangle> triangles(std::size_t cloth = 0) const;
 

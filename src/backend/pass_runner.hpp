@@ -22,6 +22,8 @@ struct FrameInput {
     std::span<const PlacedCollider>
         colliders;               ///< collider_count for each step, or once when `colliders_rest`
     bool colliders_rest = true;  ///< the same at every step
+    /// By cloth: where its attached nodes are, a row for each step; none where the program attaches nothing.
+    std::span<const std::vector<Vec3>> attached = {};
 
     /// Colliders at the end of a step of the frame; the calls that know no collider may ask with any index.
     std::span<const PlacedCollider> colliders_at(std::uint32_t step) const
@@ -51,6 +53,9 @@ public:
                       std::vector<float>& values) = 0;
     /// The root of the tree of measures after a program that computed it.
     virtual MeasureTotals measures(std::uint32_t cloth) = 0;
+
+    /// The scalars of a cloth's constraint solver, by their numbers in kernels/planes.kernel.glsl.
+    virtual std::vector<double> solver_scalars(std::uint32_t cloth) = 0;
 
     virtual std::vector<PassTime> pass_times() const = 0;
     virtual std::string device_name() const = 0;

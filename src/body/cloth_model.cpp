@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "body/collider_motion.hpp"
+#include "mesh/disc.hpp"
 
 namespace pliant {
 namespace {
@@ -89,17 +90,15 @@ ClothModel::ClothModel(const Cloth& cloth, const Scene& scene)
 {
     if (const auto* options = std::get_if<SheetOptions>(&cloth.shape))
         build_sheet(cloth, *options);
+    else if (const auto* disc = std::get_if<DiscOptions>(&cloth.shape))
+        build_mesh(cloth, make_disc(disc->radius, disc->rings));
     else
         build_mesh(cloth, std::get<SurfaceMesh>(cloth.shape));
     velocities.assign(positions.size(), to_float(cloth.velocity));
     set_masses(cloth);
     set_pins(cloth);
 
-    const SpringParameters classes[] = {cloth.springs.structural, cloth.springs.shear, cloth.springs.bend};
-    for (std::size_t k = 0; k < spring_class_count; ++k) {
-        parameters.stiffness[k] = classes[k].stiffness;
-        parameters.spring_damping[k] = classes[k].damping;
-    }
+    set_springs(cloth, scene);
     parameters.gravity = scene.gravity;
     parameters.wind = scene.air.velocity;
     parameters.air_density = scene.air.density;
@@ -108,7 +107,8 @@ ClothModel::ClothModel(const Cloth& cloth, const Scene& scene)
     parameters.damping = cloth.damping;
     parameters.thickness = cloth.thickness;
 
-    node_centric_ = is_sheet() && cloth.formulation != Formulation::spring_list;
+    const bool rows = method != Method::mass_spring && solver == Solver::paper;  // which number springs
+    node_centric_ = is_sheet() && cloth.formulation != Formulation::spring_list && !rows;
     if (is_sheet() && !node_centric_) list_sheet_springs();
     if (!is_sheet()) list_mesh_springs();
     if (!node_centric_) list_neighbours();
@@ -121,6 +121,15 @@ ClothModel::ClothModel(const Cloth& cloth, const Scene& scene)
             std::count_if(springs.begin(), springs.end(),
                           [](const Spring& spring) { return spring.spring_class != SpringClass::bend; }));
     }
+    if (method == Method::acad && solver == Solver::newton_multigrid && scene.time.substeps > 0) {
+        acad_implicit = 1 / (scene.time.frame_rate * scene.time.substeps) > stable_step();
+        for (std::size_t k = 0; acad_implicit && k < spring_class_count; ++k) {
+            limited[k].below = parameters.stiffness[k];
+            limited[k].limit =
+                acad.activate_at;  // a spring cannot be pulled to its rest length and be a spring, too
+        }
+    }
+    if (method != Method::mass_spring) hierarchy = Hierarchy(*this);
 }
 
 void ClothModel::build_sheet(const Cloth& cloth, const SheetOptions& options)
@@ -196,7 +205,7 @@ void ClothModel::set_pins(const Cloth& cloth)
 {
     const PinnedNodes nodes_of(*this);
     for (std::size_t p = 0; p < cloth.pins.size(); ++p) {
-        const std::vector<std::uint32_t> nodes = std::visit(nodes_of, cloth.pins[p]);
+        const std::vector<std::uint32_t> nodes = std::visit(nodes_of, cloth.pins[p].where);
         if (nodes.empty())
             throw Error(ErrorKind::bad_input,
                         "cloth '" + cloth.name + "': pins[" + std::to_string(p) +
@@ -204,6 +213,69 @@ void ClothModel::set_pins(const Cloth& cloth)
         for (const std::uint32_t node : nodes) {
             inverse_masses[node] = 0;
             velocities[node] = {};
+        }
+        if (cloth.pins[p].keyframes.empty()) continue;
+        Vec3d centre{};
+        for (const std::uint32_t node : nodes)
+            centre = centre + at(positions, node) * (1.0 / static_cast<double>(nodes.size()));
+        for (const std::uint32_t node : nodes)
+            attached.push_back(
+                {node, static_cast<std::uint32_t>(motions.size()), at(positions, node) - centre});
+        motions.push_back({centre, cloth.pins[p].keyframes});
+    }
+    // A node that several moving pins hold follows the last of them.
+    std::stable_sort(attached.begin(), attached.end(),
+                     [](const AttachedNode& a, const AttachedNode& b) { return a.node < b.node; });
+    const auto last_of_node =
+        std::unique(attached.rbegin(), attached.rend(),
+                    [](const AttachedNode& a, const AttachedNode& b) { return a.node == b.node; });
+    attached.erase(attached.begin(), last_of_node.base());
+}
+
+void ClothModel::place_attached(double time, std::span<Vec3> places) const
+{
+    std::vector<RigidMotion> now;
+    for (const AttachmentMotion& motion : motions) now.push_back(motion_at(motion.keyframes, time));
+    for (std::size_t k = 0; k < attached.size(); ++k) {
+        const RigidMotion& motion = now[attached[k].motion];
+        places[k] = to_float(motions[attached[k].motion].centre + motion.offset +
+                             rotate(motion.rotation, attached[k].arm));
+    }
+}
+
+void ClothModel::set_springs(const Cloth& cloth, const Scene& scene)
+{
+    method = scene.method;
+    solver = scene.solver;
+    newton = scene.newton_multigrid;
+    paper = scene.paper;
+    acad = scene.acad;
+    const SpringParameters classes[] = {cloth.springs.structural, cloth.springs.shear, cloth.springs.bend};
+    for (std::size_t k = 0; k < spring_class_count; ++k) {
+        const SpringParameters& given = classes[k];
+        SpringRole role = given.role;
+        if (role == SpringRole::automatic)
+            role = method == Method::constraint && k != static_cast<std::size_t>(SpringClass::bend)
+                       ? SpringRole::constraint
+                       : SpringRole::spring;
+        if (role == SpringRole::off) continue;
+        parameters.stiffness[k] = given.stiffness;
+        parameters.spring_damping[k] = given.damping;
+        LimitedSprings& springs_of = limited[k];
+        springs_of.exists = role == SpringRole::constraint || given.stiffness > 0 || given.damping > 0;
+        if (method == Method::acad) {
+            const bool to_rest = acad.target == AcadTarget::rest;
+            springs_of.exists = true;
+            springs_of.limit = to_rest ? 0 : acad.activate_at;
+            springs_of.beyond = 1 / acad.compliance;
+            springs_of.compressed = acad.compression || to_rest ? springs_of.beyond : 0;
+        } else if (role == SpringRole::constraint) {
+            springs_of.limit = given.limit;
+            springs_of.below = given.limit > 0 ? given.stiffness : 0;
+            springs_of.beyond = 1 / given.compliance;
+            springs_of.compressed = newton.resists == Resists::both ? springs_of.beyond : 0;
+        } else {
+            springs_of.below = given.stiffness;
         }
     }
 }

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "body/hierarchy.hpp"
 #include "pliant/scene.hpp"
 
 namespace pliant {
@@ -73,6 +74,26 @@ struct ClothParameters {
     double thickness = 0;  ///< m
 };
 
+/// What the constraint methods know of a class of springs: as LimitCurve of laws/limit.law.glsl.
+struct LimitedSprings {
+    bool exists = false;
+    double below = 0;  ///< N/m
+    double limit = 0;
+    double beyond = 0;      ///< N/m
+    double compressed = 0;  ///< N/m
+};
+
+/// A node that a moving pin holds.
+struct AttachedNode {
+    std::uint32_t node = 0;
+    std::uint32_t motion = 0;  ///< index into ClothModel::motions
+    Vec3d arm;                 ///< m, from the centre of the nodes that the pin holds, at the start
+};
+struct AttachmentMotion {
+    Vec3d centre;  ///< m
+    std::vector<Keyframe> keyframes;
+};
+
 class ClothModel {
 public:
     ClothModel(const Cloth& cloth, const Scene& scene);
@@ -95,12 +116,27 @@ public:
     /// Largest safe step in s from Gershgorin's theorem: see docs/physics.md, "Stability".
     double stable_step() const;
 
+    /// Where the attached nodes are at a time, in their order; m.
+    void place_attached(double time, std::span<Vec3> places) const;
+
+    std::vector<AttachedNode> attached;  ///< nodes of moving pins
+    std::vector<AttachmentMotion> motions;
     std::vector<Vec3> positions;         ///< m, at the start
     std::vector<Vec3> velocities;        ///< m/s, at the start
     std::vector<float> masses;           ///< kg
     std::vector<double> inverse_masses;  ///< 1/kg; 0 for a pinned node
     std::optional<SheetShape> sheet;
     ClothParameters parameters;
+    /// ACAD whose step is longer than explicit springs can stand: they are stepped with their limits,
+    /// implicitly.
+    bool acad_implicit = false;
+    Method method = Method::mass_spring;
+    Solver solver = Solver::newton_multigrid;
+    NewtonMultigridOptions newton;
+    PaperOptions paper;
+    AcadOptions acad;
+    std::array<LimitedSprings, spring_class_count> limited;  ///< by class, of the constraint methods
+    Hierarchy hierarchy;                                     ///< of the constraint methods
     // Only when not node-centric:
     std::vector<Spring> springs;   ///< sorted by (i, j)
     Ragged<Neighbour> neighbours;  ///< per node, sorted by the other node
@@ -112,6 +148,7 @@ private:
     void build_mesh(const Cloth& cloth, const SurfaceMesh& mesh);
     void set_masses(const Cloth& cloth);
     void set_pins(const Cloth& cloth);
+    void set_springs(const Cloth& cloth, const Scene& scene);
     void list_sheet_springs();
     void list_mesh_springs();
     void list_neighbours();

@@ -4,5 +4,6 @@
 #include "integration.law.glsl"
 #include "contact.law.glsl"
 #include "air.law.glsl"
+#include "limit.law.glsl"
 #include "normal.law.glsl"
 #include "measure.law.glsl"

@@ -8,22 +8,39 @@
 #include <nlohmann/json.hpp>
 
 namespace pliant {
+namespace {
+
+/// The object "solver" of the summary.
+nlohmann::ordered_json solver_summary(const Scene& scene, const SolverReport& report)
+{
+    return {{"name", name_of(scene.solver)},           {"newton_mean", report.newton_mean},
+            {"newton_max", report.newton_max},         {"iterations_mean", report.iterations_mean},
+            {"iterations_max", report.iterations_max}, {"residual_max", report.residual_max},
+            {"energy_lost", report.energy_lost},       {"active_mean", report.active_mean},
+            {"active_max", report.active_max}};
+}
+
+}  // namespace
 
 StatisticsFile::StatisticsFile(const std::filesystem::path& file) : file_(file)
 {
     file_.stream()
         << "frame,time_s,max_stretch,mean_stretch,max_penetration_m,max_speed_m_per_s,kinetic_energy_J,"
-           "elastic_energy_J,potential_energy_J,non_finite_nodes,wall_ms\n";
+           "elastic_energy_J,potential_energy_J,non_finite_nodes,wall_ms,newton,iterations,residual,"
+           "active_constraints,energy_lost_J\n";
 }
 
 void StatisticsFile::add(const Report& report, double wall_milliseconds)
 {
     const FrameMeasures& m = report.measures;
     char line[512];
-    std::snprintf(line, sizeof line, "%llu,%.9g,%.6g,%.6g,%.6g,%.6g,%.9g,%.9g,%.9g,%llu,%.4g\n",
-                  static_cast<unsigned long long>(report.frames), report.simulated_seconds, m.max_stretch,
-                  m.mean_stretch, m.max_penetration, m.max_speed, m.kinetic_energy, m.elastic_energy,
-                  m.potential_energy, static_cast<unsigned long long>(m.non_finite), wall_milliseconds);
+    const SolverReport& s = report.solver;
+    std::snprintf(
+        line, sizeof line, "%llu,%.9g,%.6g,%.6g,%.6g,%.6g,%.9g,%.9g,%.9g,%llu,%.4g,%u,%u,%.6g,%llu,%.9g\n",
+        static_cast<unsigned long long>(report.frames), report.simulated_seconds, m.max_stretch,
+        m.mean_stretch, m.max_penetration, m.max_speed, m.kinetic_energy, m.elastic_energy,
+        m.potential_energy, static_cast<unsigned long long>(m.non_finite), wall_milliseconds, s.newton_last,
+        s.iterations_last, s.residual_last, static_cast<unsigned long long>(s.active_last), s.energy_lost);
     file_.stream() << line;
 }
 
@@ -76,7 +93,13 @@ std::map<std::string, double> RunSummary::values(Simulation& simulation) const
             {"elastic_energy", report.measures.elastic_energy},
             {"lowest_height", lowest},
             {"highest_height", highest},
-            {"finite", report.finite ? 1.0 : 0.0}};
+            {"finite", report.finite ? 1.0 : 0.0},
+            {"solver.newton_mean", report.solver.newton_mean},
+            {"solver.iterations_mean", report.solver.iterations_mean},
+            {"solver.iterations_max", static_cast<double>(report.solver.iterations_max)},
+            {"solver.residual_max", report.solver.residual_max},
+            {"solver.energy_lost", report.solver.energy_lost},
+            {"solver.active_max", static_cast<double>(report.solver.active_max)}};
 }
 
 void RunSummary::write(const std::filesystem::path& file, Simulation& simulation, double wall_seconds) const
@@ -84,6 +107,7 @@ void RunSummary::write(const std::filesystem::path& file, Simulation& simulation
     const auto numbers = values(simulation);
     nlohmann::ordered_json summary;
     summary["scene"] = simulation.scene().name;
+    summary["method"] = name_of(simulation.scene().method);
     summary["backend"] = name_of(simulation.backend());
     summary["device"] = simulation.device_name();
     summary["threads"] = simulation.thread_count();
@@ -102,6 +126,8 @@ void RunSummary::write(const std::filesystem::path& file, Simulation& simulation
         summary[key] = numbers.at(key);
     summary["finite"] = simulation.report().finite;
     summary["state_hash"] = hash_text(simulation.state_hash());
+    const SolverReport& solver = simulation.report().solver;
+    if (solver.used()) summary["solver"] = solver_summary(simulation.scene(), solver);
     auto& passes = summary["passes"] = nlohmann::ordered_json::object();
     for (const PassTime& pass : simulation.pass_times()) passes[pass.name] = pass.milliseconds;
 

@@ -12,7 +12,9 @@
 
 namespace pliant {
 
-/// Per-frame statistics as CSV; the header names every column with its unit.
+/// Per-frame statistics as CSV; the header names every column with its unit. newton, iterations, residual and
+/// active_constraints are of the last step of the frame, energy_lost_J is since the start; 0 with the method
+/// mass_spring.
 class StatisticsFile {
 public:
     explicit StatisticsFile(const std::filesystem::path& file);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/disc.hpp"
+
 namespace pliant {
 namespace {
 
@@ -58,6 +60,8 @@ std::vector<std::array<float, 2>> cloth_pattern(const Cloth& cloth, std::uint32_
         places = sheet_pattern(cloth, rows, columns);
     else if (const auto* mesh = std::get_if<SurfaceMesh>(&cloth.shape))
         places = mesh_pattern(mesh->vertices);
+    else if (const auto* disc = std::get_if<DiscOptions>(&cloth.shape))
+        places = mesh_pattern(make_disc(disc->radius, disc->rings).vertices);
     places.resize(node_count, {0.5f, 0.5f});  // nodes that the scene knows nothing of are plain
     return places;
 }

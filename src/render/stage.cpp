@@ -24,6 +24,9 @@ Ball ball_around(const Cloth& cloth)
     if (const auto* sheet = std::get_if<SheetOptions>(&cloth.shape)) {
         local.include({-sheet->width / 2, 0, -sheet->height / 2});
         local.include({sheet->width / 2, 0, sheet->height / 2});
+    } else if (const auto* disc = std::get_if<DiscOptions>(&cloth.shape)) {
+        local.include({-disc->radius, 0, -disc->radius});
+        local.include({disc->radius, 0, disc->radius});
     } else {
         for (const Vec3& vertex : std::get<SurfaceMesh>(cloth.shape).vertices)
             local.include(to_double(vertex) * cloth.scale);
@@ -40,6 +43,8 @@ double cell_diagonal(const Cloth& cloth, const Ball& ball)
     if (const auto* sheet = std::get_if<SheetOptions>(&cloth.shape))
         return std::hypot(sheet->width / std::max(1u, sheet->columns - 1),
                           sheet->height / std::max(1u, sheet->rows - 1));
+    if (const auto* disc = std::get_if<DiscOptions>(&cloth.shape))
+        return std::sqrt(2.0) * disc->radius / std::max(1u, disc->rings);
     const auto vertices = std::get<SurfaceMesh>(cloth.shape).vertices.size();
     return vertices > 0 ? 4 * ball.radius / std::sqrt(static_cast<double>(vertices)) : 0;
 }

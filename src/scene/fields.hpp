@@ -4,7 +4,7 @@
 // Checker of validation.cpp looks at their values, a test compares them with scenes/scene.schema.json. What a
 // visitor offers:
 //
-//   number, vector, choice, name, text    one value
+//   number, vector, choice, flag, name, text    one value
 //   nested(key, inside)                   an object; `inside` shows its fields to the visitor of that object
 //   object(key, thing)                    the same for a thing that has `fields`
 //   list(key, things)                     an array of such objects
@@ -26,18 +26,20 @@ namespace pliant::scene_format {
 enum class Presence { optional, required };
 inline constexpr Presence required = Presence::required;
 
-/// The methods of simulation; a scene names one so that a file stays valid when there are more.
-enum class Method { mass_spring };
-
 // Names in the order of their enumerations.
-inline constexpr std::array method_names{"mass_spring"};
+inline constexpr std::array method_names{"mass_spring", "constraint", "acad"};
+inline constexpr std::array solver_names{"newton_multigrid", "paper"};
+inline constexpr std::array role_names{"automatic", "spring", "constraint", "off"};
+inline constexpr std::array preconditioner_names{"multigrid", "jacobi", "none"};
+inline constexpr std::array resists_names{"tension", "both"};
+inline constexpr std::array target_names{"threshold", "rest"};
 inline constexpr std::array formulation_names{"automatic", "node_centric", "spring_list"};
 inline constexpr std::array response_names{"coulomb", "paper"};
 inline constexpr std::array colour_names{"checker", "strain"};
 inline constexpr std::array corner_names{"top_left", "top_right", "bottom_left", "bottom_right"};
 inline constexpr std::array edge_names{"top", "bottom", "left", "right"};
 // Keys in the order of their variants' alternatives.
-inline constexpr std::array shape_keys{"sheet", "mesh"};
+inline constexpr std::array shape_keys{"sheet", "mesh", "disc"};
 inline constexpr std::array pin_keys{"index", "corner", "edge", "box"};
 inline constexpr std::array collider_keys{"sphere", "plane", "box", "capsule"};
 /// Numbers of the summary that a scene may check.
@@ -56,15 +58,25 @@ inline constexpr std::array check_names{"max_stretch",
                                         "simulated_seconds",
                                         "real_time_factor",
                                         "lowest_height",
-                                        "highest_height"};
+                                        "highest_height",
+                                        "solver.newton_mean",
+                                        "solver.iterations_mean",
+                                        "solver.iterations_max",
+                                        "solver.residual_max",
+                                        "solver.energy_lost",
+                                        "solver.active_max"};
 
 inline constexpr std::uint32_t max_nodes = 16'777'216;  // 2^24: a node's index is exact in a float, too
 constexpr auto longest_side = max_nodes / 2;            // of a sheet with two rows
+constexpr std::uint32_t most_rings = 2364;              // of a disc: 1 + 3 rings (rings + 1) nodes
 
 // Beyond these, single precision has nothing sensible to say; they keep every sum and product finite.
 inline constexpr Range coordinate{-1e6, 1e6};
 inline constexpr Range extent = above(0, 1e6);
 inline constexpr Range angle{-1e6, 1e6};
+inline constexpr Range fraction{0, 1};
+/// Of a constraint: below 1e-9 m/N single precision cannot tell its force from rounding, above 1 it is none.
+inline constexpr Range compliance{1e-9, 1};
 
 /// A thing of type Type, const or not.
 template <class Thing, class Type>
@@ -100,6 +112,9 @@ void fields(auto& at, Is<SpringParameters> auto& springs)
 {
     at.number("stiffness", springs.stiffness, {0, 1e9}, "N/m");
     at.number("damping", springs.damping, {0, 1e6}, "N s/m");
+    at.choice("role", springs.role, role_names);
+    at.number("limit", springs.limit, fraction, "");
+    at.number("compliance", springs.compliance, compliance, "m/N");
 }
 
 void fields(auto& at, Is<Springs> auto& springs)
@@ -119,6 +134,12 @@ void fields(auto& at, Is<SheetOptions> auto& sheet)
 
 void fields(auto& at, Is<SurfaceMesh> auto& mesh) { at.mesh_file("file", mesh); }
 
+void fields(auto& at, Is<DiscOptions> auto& disc)
+{
+    at.number("radius", disc.radius, extent, "m");
+    at.number("rings", disc.rings, {1, most_rings}, "rings of nodes", required);
+}
+
 void fields(auto& at, Is<Region> auto& region)
 {
     at.vector("min", region.min, coordinate, "m", required);
@@ -133,9 +154,17 @@ void pin_field(auto& at, const char* key, Is<Corner> auto& corner) { at.choice(k
 void pin_field(auto& at, const char* key, Is<Edge> auto& edge) { at.choice(key, edge, edge_names); }
 void pin_field(auto& at, const char* key, Is<Region> auto& region) { at.object(key, region); }
 
-void fields(auto& at, Is<Pin> auto& pin)
+void fields(auto& at, Is<Keyframe> auto& keyframe)
 {
-    at.one_of(pin, pin_keys, [&](const char* key, auto& where) { pin_field(at, key, where); });
+    at.number("time", keyframe.time, {0, 1e6}, "s", required);
+    at.vector("position", keyframe.position, coordinate, "m");
+    at.vector("rotation", keyframe.rotation, angle, "degrees");
+}
+
+void fields(auto& at, Is<Attachment> auto& pin)
+{
+    at.one_of(pin.where, pin_keys, [&](const char* key, auto& where) { pin_field(at, key, where); });
+    at.list("keyframes", pin.keyframes);
 }
 
 void fields(auto& at, Is<Cloth> auto& cloth)
@@ -158,13 +187,6 @@ void fields(auto& at, Is<Cloth> auto& cloth)
     at.number("damping", cloth.damping, {0, 1'000}, "1/s");
     at.number("thickness", cloth.thickness, {0, 1}, "m");
     at.list("pins", cloth.pins);
-}
-
-void fields(auto& at, Is<Keyframe> auto& keyframe)
-{
-    at.number("time", keyframe.time, {0, 1e6}, "s", required);
-    at.vector("position", keyframe.position, coordinate, "m");
-    at.vector("rotation", keyframe.rotation, angle, "degrees");
 }
 
 void contact_fields(auto& at, auto& shape)
@@ -209,13 +231,45 @@ void fields(auto& at, Is<Collider> auto& collider)
     at.one_of(collider, collider_keys, [&](const char* key, auto& shape) { at.object(key, shape); });
 }
 
+void fields(auto& at, Is<NewtonMultigridOptions> auto& solver)
+{
+    at.number("newton_iterations", solver.newton_iterations, {1, 1'000}, "iterations");
+    at.number("newton_tolerance", solver.newton_tolerance, fraction, "");
+    at.number("linear_iterations", solver.linear_iterations, {1, 10'000}, "V-cycles");
+    at.number("linear_tolerance", solver.linear_tolerance, fraction, "");
+    at.number("smoothing", solver.smoothing, {1, 8}, "");
+    at.choice("preconditioner", solver.preconditioner, preconditioner_names);
+    at.choice("resists", solver.resists, resists_names);
+    at.number("contact_stiffness", solver.contact_stiffness, above(0, 1e9), "N/m");
+    at.number("friction_speed", solver.friction_speed, above(0, 1), "m/s");
+}
+
+void fields(auto& at, Is<PaperOptions> auto& solver)
+{
+    at.number("tolerance", solver.tolerance, above(0, 1), "");
+    at.number("max_iterations", solver.max_iterations, {1, 100'000}, "iterations");
+    at.number("compliance", solver.compliance, {0, 1}, "m/N");
+}
+
+void fields(auto& at, Is<AcadOptions> auto& acad)
+{
+    at.number("activate_at", acad.activate_at, above(0, 1), "");
+    at.number("deactivate_at", acad.deactivate_at, fraction, "");
+    at.flag("compression", acad.compression);
+    at.choice("target", acad.target, target_names);
+    at.number("compliance", acad.compliance, compliance, "m/N");
+}
+
 void fields(auto& at, Is<Scene> auto& scene)
 {
-    auto method = Method::mass_spring;
     at.format_version("pliant");
     at.name("name", scene.name);
     at.text("description", scene.description);
-    at.choice("method", method, method_names);
+    at.choice("method", scene.method, method_names);
+    at.choice("solver", scene.solver, solver_names);
+    at.object("newton_multigrid", scene.newton_multigrid);
+    at.object("paper", scene.paper);
+    at.object("acad", scene.acad);
     at.object("time", scene.time);
     at.vector("gravity", scene.gravity, {-1e4, 1e4}, "m/s2");
     at.object("air", scene.air);

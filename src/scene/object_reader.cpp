@@ -110,6 +110,14 @@ void ObjectReader::vector(const char* key, Vec3d& field, const Range& range, con
         *elements[i] = real_number((*value)[i], element_path(path, i), range, unit, NumberKind::real);
 }
 
+void ObjectReader::flag(const char* key, bool& field)
+{
+    const Json* value = find(key);
+    if (!value) return;
+    if (!value->is_boolean()) throw FieldError(path_of(key), wrong_type(*value, "true or false"));
+    field = value->get<bool>();
+}
+
 void ObjectReader::text(const char* key, std::string& field, Presence presence)
 {
     if (const Json* value = find(key, presence)) field = string_of(*value, path_of(key));

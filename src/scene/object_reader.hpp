@@ -30,6 +30,7 @@ public:
     void number(const char* key, std::uint32_t& field, const Range& range, const char* unit,
                 Presence presence = {});
     void vector(const char* key, Vec3d& field, const Range& range, const char* unit, Presence presence = {});
+    void flag(const char* key, bool& field);
     void text(const char* key, std::string& field, Presence presence = {});
     void name(const char* key, std::string& field) { text(key, field); }
 

@@ -3,7 +3,12 @@
 
 #include <utility>
 
+#include "scene/fields.hpp"
+
 namespace pliant {
+
+const char* name_of(Method method) { return scene_format::method_names.at(static_cast<std::size_t>(method)); }
+const char* name_of(Solver solver) { return scene_format::solver_names.at(static_cast<std::size_t>(solver)); }
 
 Cloth Cloth::sheet(const SheetOptions& options)
 {
@@ -25,9 +30,19 @@ Cloth Cloth::mesh(SurfaceMesh mesh, const MeshOptions& options)
     return cloth;
 }
 
-ClothHandle& ClothHandle::pin(const Pin& where)
+Cloth Cloth::disc(const DiscOptions& options)
 {
-    cloth_->pin(where);
+    Cloth cloth;
+    DiscOptions shape = options;
+    cloth.density = std::exchange(shape.density, {});
+    cloth.node_mass = std::exchange(shape.node_mass, {});
+    cloth.shape = shape;
+    return cloth;
+}
+
+ClothHandle& ClothHandle::pin(const Attachment& attachment)
+{
+    cloth_->pin(attachment);
     return *this;
 }
 
@@ -42,6 +57,11 @@ void Scene::add(Collider collider) { colliders.push_back(std::move(collider)); }
 Scene::Scene(const Scene& other)
     : name(other.name),
       description(other.description),
+      method(other.method),
+      solver(other.solver),
+      newton_multigrid(other.newton_multigrid),
+      paper(other.paper),
+      acad(other.acad),
       gravity(other.gravity),
       air(other.air),
       time(other.time),

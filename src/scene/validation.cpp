@@ -2,7 +2,9 @@
 // be to one another.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "mesh/disc.hpp"
 #include "scene/fields.hpp"
 
 namespace pliant {
@@ -18,6 +20,7 @@ std::uint64_t node_count(const Cloth& cloth)
 {
     if (const auto* sheet = std::get_if<SheetOptions>(&cloth.shape))
         return std::uint64_t{sheet->rows} * sheet->columns;
+    if (const auto* disc = std::get_if<DiscOptions>(&cloth.shape)) return disc_node_count(disc->rings);
     return std::get<SurfaceMesh>(cloth.shape).vertices.size();
 }
 
@@ -61,6 +64,7 @@ public:
         require(index < names.size(), key,
                 "is no. " + std::to_string(index) + ", " + expected_choice("", names));
     }
+    void flag(const char*, bool) const {}
     void text(const char*, const std::string&) const {}
     void name(const char* key, const std::string& value) const
     {
@@ -184,10 +188,15 @@ private:
                 "is given beside density, but only one of them can say what the cloth weighs");
         require(!sheet || !(sheet->density || sheet->node_mass), "sheet.density",
                 "is set inside the shape, but the density and node_mass of the cloth itself are what counts");
+        const auto* disc = std::get_if<DiscOptions>(&cloth.shape);
+        require(!disc || !(disc->density || disc->node_mass), "disc.density",
+                "is set inside the shape, but the density and node_mass of the cloth itself are what counts");
+        require(!disc || cloth.scale == 1, "scale",
+                "is " + number_text(cloth.scale) + ", but only a mesh has a scale: a disc has its radius");
         require(sheet || cloth.formulation != Formulation::node_centric, "formulation",
                 "is node_centric, but a mesh needs spring_list or automatic");
         for (std::size_t i = 0; i < cloth.pins.size(); ++i)
-            relations(cloth, cloth.pins[i], element_path("pins", i));
+            relations(cloth, cloth.pins[i].where, element_path("pins", i));
     }
 
     void relations(const Cloth& cloth, const Pin& pin, const std::string& key) const
@@ -203,11 +212,34 @@ private:
                 "is on a mesh, but only a sheet has named edges: use index or box");
     }
 
+    void relations(const AcadOptions& acad) const
+    {
+        require(acad.deactivate_at.value_or(0) <= acad.activate_at, "deactivate_at",
+                "is " + number_text(acad.deactivate_at.value_or(0)) + ", but must not exceed activate_at, " +
+                    number_text(acad.activate_at));
+    }
+
+    /// A class of springs can be a constraint only where the method has a place for it.
+    void roles(const Springs& springs, Method method, const std::string& cloth) const
+    {
+        const std::pair<const char*, SpringRole> classes[] = {{"structural", springs.structural.role},
+                                                              {"shear", springs.shear.role},
+                                                              {"bend", springs.bend.role}};
+        const std::string reason = method == Method::acad
+                                       ? "the method acad makes its own constraints of springs"
+                                       : "the method mass_spring has no constraints";
+        for (const auto& [name, role] : classes)
+            require(role != SpringRole::constraint || method == Method::constraint,
+                    cloth + ".springs." + name + ".role",
+                    "is constraint, but " + reason + ": use method constraint");
+    }
+
     void relations(const Scene& scene) const
     {
         require(scene.cloth_count() > 0, "cloths", "is empty, but a scene needs at least one cloth");
         std::uint64_t total = 0;
         for (std::size_t i = 0; i < scene.cloth_count(); ++i) {
+            roles(scene.cloth(i).springs, scene.method, element_path("cloths", i));
             total += node_count(scene.cloth(i));
             require(total <= max_nodes, element_path("cloths", i),
                     "brings the scene to " + std::to_string(total) + " nodes, but there may be at most " +

@@ -11,7 +11,10 @@
 #include "backend/pass_runner.hpp"
 #include "backend/vulkan/vulkan_runner.hpp"
 #include "body/cloth_model.hpp"
+#include "kernels/planes.hpp"
 #include "solve/mass_spring.hpp"
+#include "solve/newton_multigrid.hpp"
+#include "solve/paper.hpp"
 
 namespace pliant {
 namespace {
@@ -120,6 +123,10 @@ public:
             const double step = 1 / (scene.time.frame_rate * scene.time.substeps);
             return {static_cast<std::uint64_t>(std::max(1ll, std::llround(duration / step))), step};
         }
+        if (scene.method == Method::constraint) {  // implicit: a step is as long as a frame unless asked for
+            const double frames = std::max(1.0, std::round(duration * scene.time.frame_rate));
+            return {static_cast<std::uint64_t>(frames), duration / frames};
+        }
         constexpr double rounding = 1e-9;
         const double count = std::max(1.0, std::ceil(duration / stable_step * (1 - rounding)));
         return {static_cast<std::uint64_t>(count), duration / count};
@@ -129,7 +136,7 @@ public:
     {
         constexpr double most = 100'000;  // as many as a scene may ask for by itself
         const double frame = 1 / scene.time.frame_rate;
-        if (scene.time.substeps == 0 && frame / stable_step > most)
+        if (scene.method != Method::constraint && scene.time.substeps == 0 && frame / stable_step > most)
             throw Error(ErrorKind::bad_input,
                         "time.substeps is 0 (automatic), and a stable step of " + seconds(stable_step) +
                             " would take more than 100000 substeps per frame; use softer springs, "
@@ -161,10 +168,44 @@ public:
     {
         const Program& program = frame_program(steps);
         place_colliders(steps, step);
+        place_attached(steps, step);
         runner->run(program, input(step));
         parity = program.parity_after;
         report.simulated_seconds = on_frame(report.simulated_seconds + steps * step, steps * step);
         report.steps += steps;
+        if (scene.method != Method::mass_spring) count_solves();
+    }
+
+    /// Adds the solver's counters of the program that has just run.
+    void count_solves()
+    {
+        SolverReport& s = report.solver;
+        s.active_last = 0;
+        s.newton_last = s.iterations_last = 0;
+        s.residual_last = 0;
+        for (std::uint32_t c = 0; c < models.size(); ++c) {
+            const std::vector<double> of = runner->solver_scalars(c);
+            const auto number = [&](int scalar) { return of[static_cast<std::size_t>(scalar)]; };
+            const auto whole = [&](int scalar) { return static_cast<std::uint32_t>(number(scalar)); };
+            s.solves += whole(scalar_solves);
+            newton_sum += number(scalar_newton_sum);
+            iterations_sum += number(scalar_iterations_sum);
+            active_sum += number(scalar_active_sum);
+            s.newton_max = std::max(s.newton_max, whole(scalar_newton_max));
+            s.iterations_max = std::max(s.iterations_max, whole(scalar_iterations_max));
+            s.residual_max = std::max(s.residual_max, number(scalar_residual_max));
+            s.energy_lost += number(scalar_energy_lost);
+            s.active_max = std::max<std::uint64_t>(s.active_max, whole(scalar_active_max));
+            s.active_last += whole(scalar_active_last);
+            s.newton_last = std::max(s.newton_last, whole(scalar_newton_last));
+            s.iterations_last = std::max(s.iterations_last, whole(scalar_iterations_last));
+            s.residual_last = std::max(s.residual_last, number(scalar_residual_last));
+        }
+        if (s.solves == 0) return;
+        const auto solves = static_cast<double>(s.solves);
+        s.newton_mean = newton_sum / solves;
+        s.iterations_mean = iterations_sum / solves;
+        s.active_mean = active_sum / solves;
     }
 
     /// A time within a millionth of a frame of a whole frame is that frame's: sums of 1/60 must reach 5.0.
@@ -183,7 +224,13 @@ public:
         if (found == programs.end() && programs.size() >= most_programs) programs.clear();
         if (found == programs.end()) {
             Program program{next_program_id++, {}, 0};
-            program.parity_after = append_mass_spring_frame(models, steps, parity, program.calls);
+            program.parity_after = scene.method == Method::mass_spring
+                                       ? append_mass_spring_frame(models, steps, parity, program.calls)
+                                   : scene.solver == Solver::paper
+                                       ? append_paper_frame(models, steps, parity, program.calls)
+                                   : scene.method == Method::acad
+                                       ? append_acad_frame(models, steps, parity, program.calls)
+                                       : append_constraint_frame(models, steps, parity, program.calls);
             found = programs.emplace(key, std::move(program)).first;
         }
         return found->second;
@@ -207,9 +254,21 @@ public:
                     scene.colliders[k], report.simulated_seconds + static_cast<double>(s + 1) * step);
     }
 
+    void place_attached(std::uint32_t steps, double step)
+    {
+        attached.resize(models.size());
+        for (std::size_t c = 0; c < models.size(); ++c) {
+            const std::size_t count = models[c].attached.size();
+            attached[c].resize(count * steps);
+            for (std::size_t s = 0; count > 0 && s < steps; ++s)
+                models[c].place_attached(report.simulated_seconds + static_cast<double>(s + 1) * step,
+                                         std::span(attached[c]).subspan(s * count, count));
+        }
+    }
+
     FrameInput input(double step) const
     {
-        return {step, static_cast<std::uint32_t>(scene.colliders.size()), placed, colliders_rest};
+        return {step, static_cast<std::uint32_t>(scene.colliders.size()), placed, colliders_rest, attached};
     }
 
     void take_measures()
@@ -280,6 +339,22 @@ public:
         return target.values;
     }
 
+    std::span<const float> multipliers(std::size_t cloth)
+    {
+        ReadBack::Values<float>& target = read_backs.at(cloth).multipliers;
+        if (target.frame == state_number) return target.values;
+        if (scene.method == Method::mass_spring) {
+            target.values.assign(models[cloth].node_count(), 0.0f);
+        } else {
+            Program program{next_program_id++, {}, parity};
+            append_multipliers(models[cloth], static_cast<std::uint32_t>(cloth), parity, program.calls);
+            runner->run(program, input(1 / scene.time.frame_rate));
+            runner->read(static_cast<std::uint32_t>(cloth), Resource::multiplier, parity, target.values);
+        }
+        target.frame = state_number;
+        return target.values;
+    }
+
     /// Normals and strains are computed only when someone looks.
     void update_drawing(std::size_t cloth)
     {
@@ -317,7 +392,7 @@ public:
             std::uint64_t frame = 0;
         };
         Values<Vec3> positions, velocities, normals;
-        Values<float> strains;
+        Values<float> strains, multipliers;
         std::uint64_t drawn = 0;  ///< normals and strains on the device
     };
 
@@ -329,6 +404,7 @@ public:
     double stable_step = 0;
     bool colliders_rest = true;
     std::vector<PlacedCollider> placed;
+    std::vector<std::vector<Vec3>> attached;                              ///< by cloth, see FrameInput
     std::map<std::pair<std::uint32_t, std::uint32_t>, Program> programs;  // by steps and parity
     std::uint64_t next_program_id = 1;
     std::uint32_t parity = 0;
@@ -336,7 +412,8 @@ public:
     std::vector<ReadBack> read_backs;
     std::vector<float> scratch;
     Report report;
-    double idle_seconds = 0;  ///< asked for after the run had ended
+    double newton_sum = 0, iterations_sum = 0, active_sum = 0;  ///< of the solver, over the run
+    double idle_seconds = 0;                                    ///< asked for after the run had ended
 };
 
 Simulation::Simulation(const Scene& scene, const SimulationOptions& options)
@@ -389,6 +466,11 @@ std::span<const float> Simulation::strains(std::size_t cloth) { return implement
 std::span<const Triangle> Simulation::triangles(std::size_t cloth) const
 {
     return implementation_->models.at(cloth).triangles();
+}
+
+std::span<const float> Simulation::multipliers(std::size_t cloth)
+{
+    return implementation_->multipliers(cloth);
 }
 
 std::uint64_t Simulation::state_hash()
@@ -453,8 +535,14 @@ std::string Simulation::resolution_warning() const
 std::string Simulation::stability_warning() const
 {
     const double step = step_length(), stable = stable_step();
-    if (step <= stable) return {};
+    const bool implicit = scene().method != Method::mass_spring && scene().solver == Solver::newton_multigrid;
+    if (step <= stable || implicit || scene().method == Method::constraint) return {};
     const double frame = 1 / scene().time.frame_rate;
+    return "the step of " + seconds(step) + " exceeds the largest safe one of " + seconds(stable) +
+           ": below the threshold, springs are taken softer, as stiff as this step can carry; for their full "
+           "stiffness use at least " +
+           std::to_string(static_cast<long long>(std::ceil(frame / stable))) +
+           " substeps per frame (time.substeps)";
     return "the step of " + seconds(step) + " exceeds the largest safe one of " + seconds(stable) +
            " and the run may diverge: use at least " +
            std::to_string(static_cast<long long>(std::ceil(frame / stable))) +

@@ -6,19 +6,32 @@ std::uint32_t append_mass_spring_frame(std::span<const ClothModel> cloths, std::
                                        std::uint32_t parity, std::vector<Call>& calls)
 {
     for (std::uint32_t step = 0; step < steps; ++step, parity ^= 1)
-        for (std::uint32_t c = 0; c < cloths.size(); ++c) {
-            const ClothModel& cloth = cloths[c];
-            if (cloth.feels_air())
-                calls.push_back({cloth.is_sheet() ? Pass::sheet_wind : Pass::mesh_wind, c, parity, step});
-            if (cloth.node_centric()) {
-                calls.push_back({Pass::sheet_step, c, parity, step});
-            } else {
-                calls.push_back({Pass::spring_force, c, parity, step});
-                calls.push_back({Pass::list_step, c, parity, step});
-            }
-        }
+        for (std::uint32_t c = 0; c < cloths.size(); ++c)
+            append_mass_spring_step(cloths[c], c, step, parity, calls);
     append_measures(cloths, parity, steps - 1, calls);
     return parity;
+}
+
+void append_mass_spring_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step,
+                             std::uint32_t parity, std::vector<Call>& calls)
+{
+    append_wind(cloth, index, step, parity, calls);
+    if (!cloth.node_centric()) calls.push_back({Pass::spring_force, index, parity, step});
+    calls.push_back({cloth.node_centric() ? Pass::sheet_step : Pass::list_step, index, parity, step});
+    append_attachments(cloth, index, step, parity, calls);
+}
+
+void append_attachments(const ClothModel& cloth, std::uint32_t index, std::uint32_t step,
+                        std::uint32_t parity, std::vector<Call>& calls)
+{
+    if (!cloth.attached.empty()) calls.push_back({Pass::attach, index, parity, step});
+}
+
+void append_wind(const ClothModel& cloth, std::uint32_t index, std::uint32_t step, std::uint32_t parity,
+                 std::vector<Call>& calls)
+{
+    if (cloth.feels_air())
+        calls.push_back({cloth.is_sheet() ? Pass::sheet_wind : Pass::mesh_wind, index, parity, step});
 }
 
 void append_measures(std::span<const ClothModel> cloths, std::uint32_t parity, std::uint32_t step,

@@ -14,6 +14,18 @@ namespace pliant {
 std::uint32_t append_mass_spring_frame(std::span<const ClothModel> cloths, std::uint32_t steps,
                                        std::uint32_t parity, std::vector<Call>& calls);
 
+/// Appends one step of one cloth.
+void append_mass_spring_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step,
+                             std::uint32_t parity, std::vector<Call>& calls);
+
+/// Appends the motion of the nodes that moving pins hold, to where they are at the end of a step.
+void append_attachments(const ClothModel& cloth, std::uint32_t index, std::uint32_t step,
+                        std::uint32_t parity, std::vector<Call>& calls);
+
+/// Appends the wind's force on one cloth before a step, where there is air.
+void append_wind(const ClothModel& cloth, std::uint32_t index, std::uint32_t step, std::uint32_t parity,
+                 std::vector<Call>& calls);
+
 /// Appends the measures of the state copy `parity`, reduced to one value for each cloth.
 void append_measures(std::span<const ClothModel> cloths, std::uint32_t parity, std::uint32_t step,
                      std::vector<Call>& calls);

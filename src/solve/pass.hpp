@@ -26,9 +26,11 @@ enum class Resource : std::uint32_t {
     measures,        ///< 8 floats per block of 256, levels of a tree one after the other
     normal,          ///< 3 floats per node
     strain,          ///< 1 float per node
+    multiplier,      ///< 1 float per node, N: the largest force of a constraint at it
+    solver,          ///< the arena of numbers of the constraint solver, and its scalars
 };
 
-enum class PassSize { node, spring, block };
+enum class PassSize { node, spring, block, level, cell, single, row, scan, edge, finer };
 
 struct PassDescription {
     const char* name;
@@ -38,13 +40,62 @@ struct PassDescription {
 const PassDescription& description_of(Pass pass);
 std::span<const PassDescription> all_passes();
 
+/// A call is skipped while the scalar that guards it is set: its loop has ended. The numbers are those of the
+/// scalars in kernels/planes.kernel.glsl.
+enum class Guard : std::uint32_t { newton = 0, linear = 1, search = 2, idle = 13, none = 32 };
+
 /// One run of a pass over one cloth.
 struct Call {
     Pass pass;
     std::uint32_t cloth = 0;
     std::uint32_t parity = 0;  ///< which copy of the state is current: 0 or 1
     std::uint32_t index = 0;   ///< the step of the frame (for its colliders); of measure_merge, the level
+    // Of the constraint solver's passes:
+    std::uint32_t level = 0;   ///< of the hierarchy, 0 being the cloth
+    std::uint32_t detail = 0;  ///< see `detail_of`
+    Guard guard = Guard::none;
 };
+
+/// The planes and the weight of a smoothing step: it reads copy `source` (0 or 1) of the correction, and
+/// damps by number `relaxation` of SolverParameters::relaxations.
+constexpr std::uint32_t detail_of(std::uint32_t source, std::uint32_t relaxation)
+{
+    return source | relaxation << 1;
+}
+
+/// Sums that a pass leaves in parts, by their numbers in kernels/planes.kernel.glsl.
+struct SumSlots {
+    std::uint32_t first = 0, count = 0;
+};
+constexpr SumSlots sum_slots_of(Pass pass)
+{
+    switch (pass) {
+        case Pass::mesh_springs:
+        case Pass::sheet_springs: return {0, 1};
+        case Pass::mesh_gather:
+        case Pass::sheet_gather: return {1, 2};
+        case Pass::mesh_apply:
+        case Pass::linear_apply: return {3, 1};
+        case Pass::linear_begin:
+        case Pass::linear_update: return {4, 1};
+        case Pass::linear_jacobi:
+        case Pass::linear_plain:
+        case Pass::mesh_smooth:
+        case Pass::level_smooth: return {5, 1};
+        case Pass::acad_begin:
+        case Pass::step_begin: return {6, 1};
+        case Pass::mesh_limits:
+        case Pass::sheet_limits: return {8, 1};
+        case Pass::step_end: return {7, 2};
+        case Pass::paper_springs: return {8, 1};
+        case Pass::paper_apply: return {3, 1};
+        case Pass::paper_system: return {4, 1};
+        case Pass::paper_update: return {4, 2};
+        default: return {};
+    }
+}
+constexpr std::uint32_t sum_slot_count = 9;
+constexpr std::uint32_t solver_scalar_count = 32;
 
 /// A sequence of calls with an identity, so that a backend can record it once and replay it.
 struct Program {
@@ -52,6 +103,14 @@ struct Program {
     std::vector<Call> calls;
     std::uint32_t parity_after = 0;  ///< the current copy of the state when it is done
 };
+
+/// Passes of the constraint solver: they work on its arena and share its kernels.
+constexpr bool is_solver_pass(Pass pass) { return pass >= Pass::solve_reset; }
+/// Those of the solver paper, which are over nodes and springs and not over packs of them.
+constexpr bool is_paper_pass(Pass pass) { return pass >= Pass::paper_begin && pass <= Pass::paper_end; }
+
+/// Those that go by the neighbours on a mesh: on the CPU they work on one node or edge at a time, too.
+constexpr bool is_mesh_pass(Pass pass) { return pass >= Pass::mesh_springs && pass <= Pass::mesh_prolong; }
 
 /// Values of one block of a reduction.
 constexpr std::uint32_t block_size = 256;

@@ -8,6 +8,7 @@
 #include "backend/cpu/jobs.hpp"
 #include "backend/cpu/kernels.hpp"
 #include "backend/host/plain_cloth.hpp"
+#include "backend/host/solver_state.hpp"
 #include "backend/pass_runner.hpp"
 
 namespace pliant {
@@ -50,17 +51,19 @@ cpu::ConstVectors pointers(const Planes<float>& a) { return {a.x.data(), a.y.dat
 cpu::Vectors pointers(Planes<float>& a) { return {a.x.data(), a.y.data(), a.z.data()}; }
 
 struct CpuCloth {
-    explicit CpuCloth(const ClothModel& model) : plain(model), springs(model, plain.layout)
+    explicit CpuCloth(const ClothModel& model)
+        : plain(model), springs(model, plain.layout), solver(model, model.hierarchy)
     {
         plain.spring_force = Planes<float>(springs.first.size());
     }
     PlainCloth<float> plain;
     SpringArrays springs;
+    SolverState<float> solver;
 };
 
 /// One call with all it needs; `part` runs a piece of it.
 struct Work {
-    enum class Unit { rows, springs, values } unit = Unit::values;
+    enum class Unit { rows, springs, values, solver, single } unit = Unit::values;
     std::size_t size = 0;      ///< in units
     std::size_t multiple = 1;  ///< parts begin at multiples of this
     std::size_t weight = 1;    ///< nodes or springs in a unit, for the decision how many threads are worth it
@@ -69,13 +72,22 @@ struct Work {
     const Kernels* kernels = nullptr;
     const StepConstants<float>* constants = nullptr;
     std::span<const Laws<float>::Collider> colliders;
+    const SolverContext<float>* solver = nullptr;
+    bool in_window = false;  ///< sheet_gather, and the sheet_springs before it
 
     Work(const Call& c, CpuCloth& target, const Kernels& k, const StepConstants<float>& values,
-         std::span<const Laws<float>::Collider> shapes)
+         const SolverConstants<float>& solver_values, std::span<const Laws<float>::Collider> shapes)
         : call(&c), cloth(&target), kernels(&k), constants(&values), colliders(shapes)
     {
-        const PlainCloth<float>& plain = cloth->plain;
-        if (call->pass == Pass::sheet_step || call->pass == Pass::sheet_wind) {
+        PlainCloth<float>& plain = cloth->plain;
+        if (is_solver_pass(call->pass)) {
+            const bool scalar = description_of(call->pass).size == PassSize::single ||
+                                is_paper_pass(call->pass) || is_mesh_pass(call->pass);
+            unit = scalar ? Unit::single : Unit::solver;
+            size = cloth->solver.size_of(c);
+            weight = cloth->solver.weight_of(c);
+            solver = &cloth->solver.context(c, plain, solver_values, shapes);
+        } else if (call->pass == Pass::sheet_step || call->pass == Pass::sheet_wind) {
             unit = Unit::rows;
             size = plain.layout.rows;
             weight = plain.layout.columns;
@@ -105,11 +117,22 @@ struct Work {
             rows(begin, end);
         else if (unit == Unit::springs)
             springs(begin, end);
+        else if (unit == Unit::solver)
+            solve(index, begin, end);
+        else if (unit == Unit::single)
+            cloth->solver.run(*call, *solver, begin, end);
         else
             cloth->plain.run(*call, *constants, colliders, begin, end);
     }
 
 private:
+    void solve(std::size_t part, std::size_t begin, std::size_t end) const
+    {
+        SolverContext<float> context = *solver;
+        if (in_window) context.window = cloth->solver.window(part);
+        kernels->solve(context, *call, static_cast<int>(begin), static_cast<int>(end));
+    }
+
     void rows(std::size_t begin, std::size_t end) const
     {
         PlainCloth<float>& plain = cloth->plain;
@@ -157,23 +180,40 @@ public:
         for (const ClothModel& model : models) {
             cloths_.emplace_back(model);
             constants_.emplace_back(model, 0.0);
+            solver_constants_.push_back(make_solver_constants<float>(model, 0.0));
         }
     }
 
     void run(const Program& program, const FrameInput& input) override
     {
-        for (std::size_t c = 0; c < cloths_.size(); ++c)
-            constants_[c] = StepConstants<float>(cloths_[c].plain.model, input.step_length);
+        for (std::size_t c = 0; c < cloths_.size(); ++c) {
+            const ClothModel& model = cloths_[c].plain.model;
+            constants_[c] = StepConstants<float>(model, input.step_length);
+            if (!input.attached.empty()) constants_[c].attached = input.attached[c];
+            solver_constants_[c] = make_solver_constants<float>(model, input.step_length);
+        }
         std::uint32_t known_index = ~0u;
         for (const Call& call : program.calls) {
+            if (cloths_[call.cloth].solver.skips(call)) continue;
             if (call.index != known_index) {
                 colliders_.clear();
                 for (const PlacedCollider& placed : input.colliders_at(call.index))
                     colliders_.push_back(make_collider<float>(placed));
                 known_index = call.index;
             }
+            const bool in_window =
+                call.pass == Pass::sheet_springs || call.pass == Pass::sheet_gather
+                    ? cloths_[call.cloth].solver.evaluates_in_windows(solver_constants_[call.cloth])
+                    : false;
+            if (in_window && call.pass == Pass::sheet_springs)
+                continue;  // runs with the sheet_gather after it
             const auto start = std::chrono::steady_clock::now();
-            run(Work(call, cloths_[call.cloth], kernels_, constants_[call.cloth], colliders_));
+            Work work(call, cloths_[call.cloth], kernels_, constants_[call.cloth],
+                      solver_constants_[call.cloth], colliders_);
+            work.in_window = in_window;
+            if (in_window)
+                cloths_[call.cloth].solver.reserve_windows(work.part_count(thread_count(), least_work_));
+            run(work);
             const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
             clock_.add(call.pass, spent.count());
         }
@@ -182,6 +222,11 @@ public:
               std::vector<float>& values) override
     {
         cloths_[cloth].plain.read(resource, parity, values);
+    }
+    std::vector<double> solver_scalars(std::uint32_t cloth) override
+    {
+        const auto values = cloths_[cloth].solver.scalars();
+        return {values.begin(), values.end()};
     }
     MeasureTotals measures(std::uint32_t cloth) override { return cloths_[cloth].plain.totals(); }
     std::vector<PassTime> pass_times() const override { return clock_.times(); }
@@ -215,6 +260,7 @@ private:
     std::unique_ptr<JobSystem> own_jobs_;
     std::vector<CpuCloth> cloths_;
     std::vector<StepConstants<float>> constants_;
+    std::vector<SolverConstants<float>> solver_constants_;
     std::vector<Laws<float>::Collider> colliders_;
     PassClock clock_;
 };

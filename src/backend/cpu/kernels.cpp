@@ -15,7 +15,7 @@ std::span<const Kernels* const> available_kernels()
         std::vector<const Kernels*> list = {&kernels_baseline};
 #if defined(__x86_64__)
         __builtin_cpu_init();
-        if (__builtin_cpu_supports("avx2")) list.push_back(&kernels_avx2);
+        if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) list.push_back(&kernels_avx2);
         if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
             __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw"))
             list.push_back(&kernels_avx512);

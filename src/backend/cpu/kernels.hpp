@@ -6,6 +6,7 @@
 #include <span>
 
 #include "backend/host/plain_cloth.hpp"
+#include "backend/host/solver_context.hpp"
 
 namespace pliant::cpu {
 
@@ -44,6 +45,8 @@ struct Kernels {
     void (*sheet_step)(const SheetArguments&, std::size_t first_row, std::size_t end_row);
     void (*sheet_wind)(const SheetArguments&, std::size_t first_row, std::size_t end_row);
     void (*spring_forces)(const SpringArguments&, std::size_t first, std::size_t end);
+    /// Segments or rows of a pass of the constraint solver.
+    void (*solve)(const SolverContext<float>&, const Call&, int first, int end);
 };
 
 /// Those this build has and this machine can run, narrowest first; never empty.

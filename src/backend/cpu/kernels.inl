@@ -4,6 +4,7 @@
 // known.
 #include "backend/cpu/kernels.hpp"
 #include "backend/cpu/pack.hpp"
+#include "backend/host/solver_kernels.hpp"
 
 namespace pliant::cpu {
 namespace {
@@ -177,9 +178,14 @@ void spring_forces(const SpringArguments& a, std::size_t first, std::size_t end)
                               Number::load(a.damping + s)));
 }
 
+void solve(const SolverContext<float>& context, const Call& call, int first, int end)
+{
+    SolverKernels<Number>(context, call).run(call.pass, first, end);
+}
+
 }  // namespace
 
 extern const Kernels PLIANT_KERNELS;
-const Kernels PLIANT_KERNELS = {PLIANT_KERNELS_NAME, sheet_step, sheet_wind, spring_forces};
+const Kernels PLIANT_KERNELS = {PLIANT_KERNELS_NAME, sheet_step, sheet_wind, spring_forces, solve};
 
 }  // namespace pliant::cpu

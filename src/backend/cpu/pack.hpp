@@ -9,6 +9,7 @@
 #include <immintrin.h>
 #endif
 
+#include "backend/host/lanes.hpp"
 #include "laws/laws.hpp"
 
 namespace pliant {
@@ -17,13 +18,13 @@ namespace pliant {
 /// parameter.
 template <int W>
 struct LaneTypes;
-#define PLIANT_LANE_TYPES(W)                                                                      \
-    template <>                                                                                   \
-    struct LaneTypes<W> {                                                                         \
-        typedef float Floats __attribute__((vector_size(W * 4)));                                 \
-        typedef float UnalignedFloats __attribute__((vector_size(W * 4), aligned(4), may_alias)); \
-        typedef std::int32_t Integers __attribute__((vector_size(W * 4)));                        \
-        typedef std::uint32_t Bits __attribute__((vector_size(W * 4)));                           \
+#define PLIANT_LANE_TYPES(W)                                                           \
+    template <>                                                                        \
+    struct LaneTypes<W> {                                                              \
+        typedef float Floats __attribute__((vector_size(W * 4)));                      \
+        typedef float UnalignedFloats __attribute__((vector_size(W * 4), aligned(4))); \
+        typedef std::int32_t Integers __attribute__((vector_size(W * 4)));             \
+        typedef std::uint32_t Bits __attribute__((vector_size(W * 4)));                \
     };
 PLIANT_LANE_TYPES(4)
 PLIANT_LANE_TYPES(8)
@@ -98,6 +99,72 @@ struct NumberTraits<Pack<W>> {
         for (int k = 0; k < W; ++k)
             if (m.lanes[k]) return true;
         return false;
+    }
+};
+
+/// 0, 1, ... W - 1 times `step` from `first` on, as lanes for a shuffle of two packs.
+template <int W, int first, int step, class Floats>
+inline Floats every_lane(Floats a, Floats b)
+{
+    typename LaneTypes<W>::Integers lanes;
+    for (int k = 0; k < W; ++k) lanes[k] = first + k * step;
+    return __builtin_shuffle(a, b, lanes);
+}
+
+/// By turns a lane of a and one of b, from lane `first` on.
+template <int W, int first, class Floats>
+inline Floats lanes_by_turns(Floats a, Floats b)
+{
+    typename LaneTypes<W>::Integers lanes;
+    for (int k = 0; k < W; ++k) lanes[k] = first + k / 2 + (k % 2) * W;
+    return __builtin_shuffle(a, b, lanes);
+}
+
+template <int W>
+struct Lanes<Pack<W>> {
+    using Number = float;
+    using T = Pack<W>;
+    static constexpr int count = W;
+    static T load(const float* p) { return T::load(p); }
+    static T load_even(const float* p) { return every_lane<W, 0, 2>(T::load(p).lanes, T::load(p + W).lanes); }
+    static void store(float* p, T a) { a.store(p); }
+    static void add_by_turns(float* p, T even, T odd, const float* where)
+    {
+        const T zero(0.0f);
+        const T low = lanes_by_turns<W, 0>(even.lanes, odd.lanes);
+        const T high = lanes_by_turns<W, W / 2>(even.lanes, odd.lanes);
+        (T::load(p) + NumberTraits<T>::choose(T::load(where) > zero, low, zero)).store(p);
+        (T::load(p + W) + NumberTraits<T>::choose(T::load(where + W) > zero, high, zero)).store(p + W);
+    }
+    static T spread(float a) { return T(a); }
+    static float first(T a) { return a.lanes[0]; }
+    static PackMask<W> first_lanes(int number)
+    {
+        typename LaneTypes<W>::Integers lane;
+        for (int k = 0; k < W; ++k) lane[k] = k;
+        return {lane < number};
+    }
+    static float sum(T a)
+    {
+        float lanes[W];
+        a.store(lanes);
+        for (int half = W / 2; half > 0; half /= 2)
+            for (int k = 0; k < half; ++k) lanes[k] += lanes[k + half];
+        return lanes[0];
+    }
+    /// Fused where the instruction set has it: the constraint solver's results may differ between instruction
+    /// sets.
+    static T multiply_add(T a, T b, T c)
+    {
+#if defined(__AVX512F__)
+        if constexpr (W == 16)
+            return (typename T::Lanes)_mm512_fmadd_ps((__m512)a.lanes, (__m512)b.lanes, (__m512)c.lanes);
+#endif
+#if defined(__FMA__)
+        if constexpr (W == 8)
+            return (typename T::Lanes)_mm256_fmadd_ps((__m256)a.lanes, (__m256)b.lanes, (__m256)c.lanes);
+#endif
+        return a * b + c;
     }
 };
 

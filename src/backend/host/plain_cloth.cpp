@@ -39,6 +39,7 @@ PlainCloth<T>::PlainCloth(const ClothModel& cloth)
       normal(layout.size),
       inverse_mass(layout.size),
       strain(layout.size),
+      multiplier(cloth.hierarchy.empty() ? 0 : layout.size),
       tree(cloth.node_count())
 {
     for (auto* planes : {&position[0], &position[1], &velocity[0], &velocity[1]})
@@ -58,10 +59,11 @@ PlainCloth<T>::PlainCloth(const ClothModel& cloth)
 template <class T>
 std::size_t PlainCloth<T>::size_of(const Call& call) const
 {
+    if (call.pass == Pass::attach) return model.attached.size();
     switch (description_of(call.pass).size) {
         case PassSize::block: return tree.levels[call.pass == Pass::measure_merge ? call.index : 0].count;
         case PassSize::spring: return model.springs.size();
-        case PassSize::node: break;
+        default: break;
     }
     return model.node_count();
 }
@@ -74,6 +76,7 @@ void PlainCloth<T>::run(const Call& call, const StepConstants<T>& constants,
         case Pass::sheet_wind: return sheet_wind(call, constants, begin, end);
         case Pass::mesh_wind: return mesh_wind(call, constants, begin, end);
         case Pass::sheet_step: return sheet_step(call, constants, colliders, begin, end);
+        case Pass::attach: return attach(call, constants, begin, end);
         case Pass::spring_force: return spring_forces(call, constants, begin, end);
         case Pass::list_step: return list_step(call, constants, colliders, begin, end);
         case Pass::sheet_measure:
@@ -83,6 +86,7 @@ void PlainCloth<T>::run(const Call& call, const StepConstants<T>& constants,
         case Pass::mesh_normal: return mesh_normals(call, begin, end);
         case Pass::sheet_strain: return sheet_strains(call, constants, begin, end);
         case Pass::list_strain: return list_strains(call, begin, end);
+        default: return;  // of the constraint solver, see solver_state.hpp
     }
 }
 
@@ -164,6 +168,20 @@ void PlainCloth<T>::sheet_step(const Call& call, const StepConstants<T>& c,
         });
         finish_step(call, c, colliders, place, force + external_force.get(place.offset));
     });
+}
+
+/// Nodes of moving pins, to where they are at the end of the step.
+template <class T>
+void PlainCloth<T>::attach(const Call& call, const StepConstants<T>& c, std::size_t begin, std::size_t end)
+{
+    if (c.attached.size() < (call.index + 1) * model.attached.size()) return;
+    for (std::size_t k = begin; k < end; ++k) {
+        const std::size_t offset = layout.offset(model.attached[k].node);
+        const Vec3 place = c.attached[call.index * model.attached.size() + k];
+        const Vector next{static_cast<T>(place.x), static_cast<T>(place.y), static_cast<T>(place.z)};
+        velocity[1 - call.parity].set(offset, (next - position[call.parity].get(offset)) * (T(1) / c.dt));
+        position[1 - call.parity].set(offset, next);
+    }
 }
 
 template <class T>
@@ -405,7 +423,11 @@ void PlainCloth<T>::read(Resource resource, std::uint32_t parity, std::vector<fl
                 push(m.max_stretch, m.max_penetration, m.max_speed2, m.stretch_sum, m.kinetic_energy,
                      m.elastic_energy, m.height_moment, m.non_finite);
             return;
-        case Resource::colliders: return;  // an input, nothing to read
+        case Resource::colliders:
+        case Resource::multiplier:
+            for (std::size_t i = 0; i < nodes && !multiplier.empty(); ++i) push(multiplier[layout.offset(i)]);
+            return;
+        case Resource::solver: return;  // nothing per node
     }
 }
 

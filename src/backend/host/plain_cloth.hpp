@@ -44,6 +44,8 @@ struct StepConstants {
     T stiffness[spring_class_count]{}, damping[spring_class_count]{};
     T rest_lengths[5]{};  ///< of a sheet
 
+    std::span<const Vec3> attached = {};  ///< m, places of attached nodes, a row for each step of the frame
+
     StepConstants(const ClothModel& model, double step_length);
 };
 
@@ -71,7 +73,7 @@ public:
     Planes<T> external_force;  ///< zero, and never written, without air
     Planes<T> spring_force;    ///< per spring
     Planes<T> normal;
-    AlignedArray<T> inverse_mass, strain;
+    AlignedArray<T> inverse_mass, strain, multiplier;  ///< multiplier: of the constraint methods
     std::vector<Measure> measures;
     MeasureTree tree;
 
@@ -88,6 +90,7 @@ private:
 
     void sheet_step(const Call&, const StepConstants<T>&, std::span<const Collider>, std::size_t,
                     std::size_t);
+    void attach(const Call&, const StepConstants<T>&, std::size_t, std::size_t);
     void list_step(const Call&, const StepConstants<T>&, std::span<const Collider>, std::size_t, std::size_t);
     void spring_forces(const Call&, const StepConstants<T>&, std::size_t, std::size_t);
     void sheet_wind(const Call&, const StepConstants<T>&, std::size_t, std::size_t);

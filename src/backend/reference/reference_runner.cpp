@@ -2,6 +2,7 @@
 #include <chrono>
 
 #include "backend/host/plain_cloth.hpp"
+#include "backend/host/solver_state.hpp"
 #include "backend/pass_runner.hpp"
 
 namespace pliant {
@@ -9,20 +10,39 @@ namespace {
 
 class ReferenceRunner final : public PassRunner {
 public:
-    explicit ReferenceRunner(std::span<const ClothModel> models) : cloths_(models.begin(), models.end()) {}
+    explicit ReferenceRunner(std::span<const ClothModel> models) : cloths_(models.begin(), models.end())
+    {
+        for (const ClothModel& model : models) solvers_.emplace_back(model, model.hierarchy);
+    }
 
     void run(const Program& program, const FrameInput& input) override
     {
         std::vector<StepConstants<double>> constants;
-        for (const auto& cloth : cloths_) constants.emplace_back(cloth.model, input.step_length);
+        std::vector<SolverConstants<double>> solver_constants;
+        for (const auto& cloth : cloths_) {
+            constants.emplace_back(cloth.model, input.step_length);
+            if (!input.attached.empty()) constants.back().attached = input.attached[constants.size() - 1];
+            solver_constants.push_back(make_solver_constants<double>(cloth.model, input.step_length));
+        }
         std::vector<Laws<double>::Collider> colliders;
+        std::uint32_t known_index = ~0u;
         for (const Call& call : program.calls) {
-            colliders.clear();
-            for (const PlacedCollider& placed : input.colliders_at(call.index))
-                colliders.push_back(make_collider<double>(placed));
+            if (call.index != known_index) {
+                colliders.clear();
+                for (const PlacedCollider& placed : input.colliders_at(call.index))
+                    colliders.push_back(make_collider<double>(placed));
+                known_index = call.index;
+            }
             const auto start = std::chrono::steady_clock::now();
             auto& cloth = cloths_[call.cloth];
-            cloth.run(call, constants[call.cloth], colliders, 0, cloth.size_of(call));
+            if (is_solver_pass(call.pass)) {
+                SolverState<double>& solver = solvers_[call.cloth];
+                if (solver.skips(call)) continue;
+                solver.run(call, solver.context(call, cloth, solver_constants[call.cloth], colliders), 0,
+                           solver.size_of(call));
+            } else {
+                cloth.run(call, constants[call.cloth], colliders, 0, cloth.size_of(call));
+            }
             const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
             clock_.add(call.pass, spent.count());
         }
@@ -32,6 +52,11 @@ public:
     {
         cloths_[cloth].read(resource, parity, values);
     }
+    std::vector<double> solver_scalars(std::uint32_t cloth) override
+    {
+        const auto values = solvers_[cloth].scalars();
+        return {values.begin(), values.end()};
+    }
     MeasureTotals measures(std::uint32_t cloth) override { return cloths_[cloth].totals(); }
     std::vector<PassTime> pass_times() const override { return clock_.times(); }
     std::string device_name() const override { return "CPU, one thread, double"; }
@@ -39,6 +64,7 @@ public:
 
 private:
     std::vector<PlainCloth<double>> cloths_;
+    std::vector<SolverState<double>> solvers_;
     PassClock clock_;
 };
 

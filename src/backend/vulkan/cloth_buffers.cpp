@@ -8,6 +8,12 @@ namespace {
 
 using Usage = vk::BufferUsageFlagBits;
 
+vk::DescriptorType type_of(Binding binding)
+{
+    return binding == Binding::parameters || binding == Binding::solver ? vk::DescriptorType::eUniformBuffer
+                                                                        : vk::DescriptorType::eStorageBuffer;
+}
+
 struct Float4 {
     float x = 0, y = 0, z = 0, w = 0;
 };
@@ -17,7 +23,7 @@ Float4 float4(Vec3 a, float w) { return {a.x, a.y, a.z, w}; }
 /// As the uniform block of shaders/cloth.glsl.
 struct Parameters {
     std::uint32_t rows = 0, columns = 0, node_count = 0, spring_count = 0;
-    std::uint32_t collider_count = 0, colliders_rest = 0, has_air = 0, padding = 0;
+    std::uint32_t collider_count = 0, colliders_rest = 0, has_air = 0, attached_first = 0;
     Float4 gravity_dt, gravity_direction, wind_density, drag_lift_thickness, stiffness, spring_damping;
     Float4 rest_lengths, rest_lengths_more;
 };
@@ -28,9 +34,7 @@ vk::raii::DescriptorSetLayout make_cloth_layout(const Device& device)
 {
     std::vector<vk::DescriptorSetLayoutBinding> bindings;
     for (std::uint32_t b = 0; b < binding_count; ++b)
-        bindings.emplace_back(
-            b, b == 0 ? vk::DescriptorType::eUniformBuffer : vk::DescriptorType::eStorageBuffer, 1,
-            vk::ShaderStageFlagBits::eCompute);
+        bindings.emplace_back(b, type_of(static_cast<Binding>(b)), 1, vk::ShaderStageFlagBits::eCompute);
     return {device.handle(), vk::DescriptorSetLayoutCreateInfo({}, bindings)};
 }
 
@@ -43,7 +47,7 @@ Buffer ClothBuffers::filled(const Device& device, const void* data, std::size_t 
 
 ClothBuffers::ClothBuffers(const Device& device, const ClothModel& model,
                            const vk::raii::DescriptorSetLayout& layout)
-    : model_(&model), tree_(model.node_count())
+    : model_(&model), tree_(model.node_count()), solver_(device, model)
 {
     const std::size_t nodes = model.node_count();
     std::vector<Float4> values(nodes);
@@ -94,8 +98,8 @@ ClothBuffers::ClothBuffers(const Device& device, const ClothModel& model,
             filled(device, around.data(), around.size() * sizeof(around[0]), "triangles around nodes");
     }
 
-    const vk::DescriptorPoolSize sizes[] = {{vk::DescriptorType::eUniformBuffer, 2},
-                                            {vk::DescriptorType::eStorageBuffer, 2 * (binding_count - 1)}};
+    const vk::DescriptorPoolSize sizes[] = {{vk::DescriptorType::eUniformBuffer, 2 * 2},
+                                            {vk::DescriptorType::eStorageBuffer, 2 * (binding_count - 2)}};
     pool_ = {device.handle(),
              vk::DescriptorPoolCreateInfo(vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 2, sizes)};
     const vk::DescriptorSetLayout layouts[] = {*layout, *layout};
@@ -123,15 +127,19 @@ ClothBuffers::ClothBuffers(const Device& device, const ClothModel& model,
             {Binding::normal, &normal_},
             {Binding::strain, &strain_},
             {Binding::measures, &measures_},
+            {Binding::solver, &solver_.constants()},
+            {Binding::solver_arena, &solver_.arena()},
+            {Binding::solver_scalars, &solver_.scalars()},
+            {Binding::solver_parts, &solver_.parts()},
+            {Binding::solver_topology, &solver_.topology()},
+            {Binding::multiplier, &solver_.multiplier()},
         };
         for (const auto& [binding, buffer] : bound) {
             if (buffer->size == 0) continue;  // this kind of cloth has none
             const auto descriptor = buffer->descriptor();
-            const auto type = binding == Binding::parameters ? vk::DescriptorType::eUniformBuffer
-                                                             : vk::DescriptorType::eStorageBuffer;
             device.handle().updateDescriptorSets(
-                vk::WriteDescriptorSet(*sets_[parity], static_cast<std::uint32_t>(binding), 0, 1, type,
-                                       nullptr, &descriptor),
+                vk::WriteDescriptorSet(*sets_[parity], static_cast<std::uint32_t>(binding), 0, 1,
+                                       type_of(binding), nullptr, &descriptor),
                 {});
         }
     }
@@ -147,7 +155,8 @@ void ClothBuffers::bind_colliders(const Device& device, const Buffer& colliders)
             {});
 }
 
-void ClothBuffers::set_parameters(double step_length, std::uint32_t collider_count, bool colliders_rest)
+void ClothBuffers::set_parameters(double step_length, std::uint32_t collider_count, bool colliders_rest,
+                                  std::uint32_t attached_first)
 {
     const StepConstants<float> c(*model_, step_length);
     Parameters p;
@@ -167,8 +176,11 @@ void ClothBuffers::set_parameters(double step_length, std::uint32_t collider_cou
     p.stiffness = {c.stiffness[0], c.stiffness[1], c.stiffness[2], 0};
     p.spring_damping = {c.damping[0], c.damping[1], c.damping[2], 0};
     p.rest_lengths = {c.rest_lengths[0], c.rest_lengths[1], c.rest_lengths[2], c.rest_lengths[3]};
+    p.attached_first = attached_first;
     p.rest_lengths_more.x = c.rest_lengths[4];
+    p.rest_lengths_more.y = step_length > 0 ? 1 / c.dt : 0;
     std::memcpy(parameters_.mapped, &p, sizeof p);
+    solver_.set_constants(step_length);
 }
 
 const Buffer& ClothBuffers::buffer(Resource resource, std::uint32_t parity) const
@@ -183,7 +195,9 @@ const Buffer& ClothBuffers::buffer(Resource resource, std::uint32_t parity) cons
         case Resource::normal: return normal_;
         case Resource::strain: return strain_;
         case Resource::measures: return measures_;
-        case Resource::colliders: break;
+        case Resource::multiplier: return solver_.multiplier();
+        case Resource::colliders:
+        case Resource::solver: break;
     }
     throw Error(ErrorKind::bad_usage, "this resource is not a cloth's");
 }

@@ -8,6 +8,7 @@
 
 #include "backend/host/plain_cloth.hpp"
 #include "backend/vulkan/device.hpp"
+#include "backend/vulkan/solver_buffers.hpp"
 #include "body/cloth_model.hpp"
 #include "solve/pass.hpp"
 
@@ -33,8 +34,14 @@ enum class Binding : std::uint32_t {
     normal = 15,
     strain = 16,
     measures = 17,
+    solver = 18,
+    solver_arena = 19,
+    solver_scalars = 20,
+    solver_parts = 21,
+    solver_topology = 22,
+    multiplier = 23,
 };
-constexpr std::uint32_t binding_count = 18;
+constexpr std::uint32_t binding_count = 24;
 
 vk::raii::DescriptorSetLayout make_cloth_layout(const Device& device);
 
@@ -46,7 +53,8 @@ public:
     const MeasureTree& tree() const { return tree_; }
     vk::DescriptorSet set(std::uint32_t parity) const { return *sets_[parity]; }
     void bind_colliders(const Device& device, const Buffer& colliders);
-    void set_parameters(double step_length, std::uint32_t collider_count, bool colliders_rest);
+    void set_parameters(double step_length, std::uint32_t collider_count, bool colliders_rest,
+                        std::uint32_t attached_first);
 
     /// The buffer behind a resource; for next_* that of the other parity.
     const Buffer& buffer(Resource resource, std::uint32_t parity) const;
@@ -55,6 +63,7 @@ public:
     /// Appends the copy of the root of the measures to where the host reads it.
     void record_root_copy(const vk::raii::CommandBuffer& commands) const;
     MeasureTotals totals() const;
+    const SolverBuffers& solver() const { return solver_; }
 
 private:
     Buffer filled(const Device& device, const void* data, std::size_t bytes, const char* name) const;
@@ -65,6 +74,7 @@ private:
     Buffer parameters_, external_force_, spring_force_, normal_, strain_, measures_, root_;
     Buffer springs_, spring_rest_class_, neighbour_start_, neighbours_;
     Buffer triangles_, triangle_start_, node_triangles_;
+    SolverBuffers solver_;
     vk::raii::DescriptorPool pool_{nullptr};
     std::vector<vk::raii::DescriptorSet> sets_;
 };

@@ -13,6 +13,9 @@ constexpr std::uint32_t mesh_wind[] = {
 constexpr std::uint32_t sheet_step[] = {
 #include "shaders/sheet_step.comp.inc"
 };
+constexpr std::uint32_t attach[] = {
+#include "shaders/attach.comp.inc"
+};
 constexpr std::uint32_t spring_force[] = {
 #include "shaders/spring_force.comp.inc"
 };
@@ -39,6 +42,211 @@ constexpr std::uint32_t sheet_strain[] = {
 };
 constexpr std::uint32_t list_strain[] = {
 #include "shaders/list_strain.comp.inc"
+};
+constexpr std::uint32_t solve_reset[] = {
+#include "shaders/solve_reset.comp.inc"
+};
+constexpr std::uint32_t step_begin[] = {
+#include "shaders/step_begin.comp.inc"
+};
+constexpr std::uint32_t sheet_springs[] = {
+#include "shaders/sheet_springs.comp.inc"
+};
+constexpr std::uint32_t sheet_gather[] = {
+#include "shaders/sheet_gather.comp.inc"
+};
+constexpr std::uint32_t solve_begin[] = {
+#include "shaders/solve_begin.comp.inc"
+};
+constexpr std::uint32_t sheet_coarsen[] = {
+#include "shaders/sheet_coarsen.comp.inc"
+};
+constexpr std::uint32_t bottom_factor[] = {
+#include "shaders/bottom_factor.comp.inc"
+};
+constexpr std::uint32_t linear_begin[] = {
+#include "shaders/linear_begin.comp.inc"
+};
+constexpr std::uint32_t linear_start[] = {
+#include "shaders/linear_start.comp.inc"
+};
+constexpr std::uint32_t level_smooth[] = {
+#include "shaders/level_smooth.comp.inc"
+};
+constexpr std::uint32_t level_residual[] = {
+#include "shaders/level_residual.comp.inc"
+};
+constexpr std::uint32_t sheet_restrict[] = {
+#include "shaders/sheet_restrict.comp.inc"
+};
+constexpr std::uint32_t bottom_solve[] = {
+#include "shaders/bottom_solve.comp.inc"
+};
+constexpr std::uint32_t sheet_prolong[] = {
+#include "shaders/sheet_prolong.comp.inc"
+};
+constexpr std::uint32_t linear_jacobi[] = {
+#include "shaders/linear_jacobi.comp.inc"
+};
+constexpr std::uint32_t linear_plain[] = {
+#include "shaders/linear_plain.comp.inc"
+};
+constexpr std::uint32_t linear_beta[] = {
+#include "shaders/linear_beta.comp.inc"
+};
+constexpr std::uint32_t linear_direction[] = {
+#include "shaders/linear_direction.comp.inc"
+};
+constexpr std::uint32_t linear_apply[] = {
+#include "shaders/linear_apply.comp.inc"
+};
+constexpr std::uint32_t linear_alpha[] = {
+#include "shaders/linear_alpha.comp.inc"
+};
+constexpr std::uint32_t linear_update[] = {
+#include "shaders/linear_update.comp.inc"
+};
+constexpr std::uint32_t linear_check[] = {
+#include "shaders/linear_check.comp.inc"
+};
+constexpr std::uint32_t search_begin[] = {
+#include "shaders/search_begin.comp.inc"
+};
+constexpr std::uint32_t newton_move[] = {
+#include "shaders/newton_move.comp.inc"
+};
+constexpr std::uint32_t search_move[] = {
+#include "shaders/search_move.comp.inc"
+};
+constexpr std::uint32_t search_check[] = {
+#include "shaders/search_check.comp.inc"
+};
+constexpr std::uint32_t newton_check[] = {
+#include "shaders/newton_check.comp.inc"
+};
+constexpr std::uint32_t step_end[] = {
+#include "shaders/step_end.comp.inc"
+};
+constexpr std::uint32_t solve_end[] = {
+#include "shaders/solve_end.comp.inc"
+};
+constexpr std::uint32_t mesh_springs[] = {
+#include "shaders/mesh_springs.comp.inc"
+};
+constexpr std::uint32_t mesh_gather[] = {
+#include "shaders/mesh_gather.comp.inc"
+};
+constexpr std::uint32_t mesh_coarsen_couplings[] = {
+#include "shaders/mesh_coarsen_couplings.comp.inc"
+};
+constexpr std::uint32_t mesh_coarsen_nodes[] = {
+#include "shaders/mesh_coarsen_nodes.comp.inc"
+};
+constexpr std::uint32_t mesh_bottom_factor[] = {
+#include "shaders/mesh_bottom_factor.comp.inc"
+};
+constexpr std::uint32_t mesh_apply[] = {
+#include "shaders/mesh_apply.comp.inc"
+};
+constexpr std::uint32_t mesh_smooth[] = {
+#include "shaders/mesh_smooth.comp.inc"
+};
+constexpr std::uint32_t mesh_residual[] = {
+#include "shaders/mesh_residual.comp.inc"
+};
+constexpr std::uint32_t mesh_restrict[] = {
+#include "shaders/mesh_restrict.comp.inc"
+};
+constexpr std::uint32_t mesh_prolong[] = {
+#include "shaders/mesh_prolong.comp.inc"
+};
+constexpr std::uint32_t paper_begin[] = {
+#include "shaders/paper_begin.comp.inc"
+};
+constexpr std::uint32_t paper_springs[] = {
+#include "shaders/paper_springs.comp.inc"
+};
+constexpr std::uint32_t paper_gather[] = {
+#include "shaders/paper_gather.comp.inc"
+};
+constexpr std::uint32_t paper_count[] = {
+#include "shaders/paper_count.comp.inc"
+};
+constexpr std::uint32_t paper_scan[] = {
+#include "shaders/paper_scan.comp.inc"
+};
+constexpr std::uint32_t paper_list[] = {
+#include "shaders/paper_list.comp.inc"
+};
+constexpr std::uint32_t paper_system[] = {
+#include "shaders/paper_system.comp.inc"
+};
+constexpr std::uint32_t paper_start[] = {
+#include "shaders/paper_start.comp.inc"
+};
+constexpr std::uint32_t paper_apply[] = {
+#include "shaders/paper_apply.comp.inc"
+};
+constexpr std::uint32_t paper_alpha[] = {
+#include "shaders/paper_alpha.comp.inc"
+};
+constexpr std::uint32_t paper_update[] = {
+#include "shaders/paper_update.comp.inc"
+};
+constexpr std::uint32_t paper_check[] = {
+#include "shaders/paper_check.comp.inc"
+};
+constexpr std::uint32_t paper_direction[] = {
+#include "shaders/paper_direction.comp.inc"
+};
+constexpr std::uint32_t paper_multipliers[] = {
+#include "shaders/paper_multipliers.comp.inc"
+};
+constexpr std::uint32_t paper_step[] = {
+#include "shaders/paper_step.comp.inc"
+};
+constexpr std::uint32_t paper_end[] = {
+#include "shaders/paper_end.comp.inc"
+};
+
+constexpr std::uint32_t mesh_limits[] = {
+#include "shaders/mesh_limits.comp.inc"
+};
+
+constexpr std::uint32_t mesh_marks[] = {
+#include "shaders/mesh_marks.comp.inc"
+};
+
+constexpr std::uint32_t mesh_multipliers[] = {
+#include "shaders/mesh_multipliers.comp.inc"
+};
+
+constexpr std::uint32_t sheet_limits[] = {
+#include "shaders/sheet_limits.comp.inc"
+};
+
+constexpr std::uint32_t acad_check[] = {
+#include "shaders/acad_check.comp.inc"
+};
+
+constexpr std::uint32_t sheet_marks[] = {
+#include "shaders/sheet_marks.comp.inc"
+};
+
+constexpr std::uint32_t acad_begin[] = {
+#include "shaders/acad_begin.comp.inc"
+};
+
+constexpr std::uint32_t acad_end[] = {
+#include "shaders/acad_end.comp.inc"
+};
+
+constexpr std::uint32_t sheet_multipliers[] = {
+#include "shaders/sheet_multipliers.comp.inc"
+};
+
+constexpr std::uint32_t paper_export[] = {
+#include "shaders/paper_export.comp.inc"
 };
 
 constexpr std::span<const std::uint32_t> codes[] = {

@@ -1,5 +1,6 @@
 #include "backend/vulkan/vulkan_runner.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <map>
 #include <set>
@@ -7,6 +8,8 @@
 #include "backend/vulkan/cloth_buffers.hpp"
 #include "backend/vulkan/shader_code.hpp"
 #include "solve/mass_spring.hpp"
+#include "solve/newton_multigrid.hpp"
+#include "solve/paper.hpp"
 
 namespace pliant {
 namespace {
@@ -34,11 +37,17 @@ ColliderRow pack_collider(const PlacedCollider& placed)
             {}};
 }
 
+/// As shaders/cloth.glsl.
 struct Push {
     std::uint32_t index = 0, source_first = 0, source_count = 0, target_first = 0;
+    std::uint32_t level = 0, detail = 0, guard = 0, slot_first = 0, slot_count = 0;
 };
 
-/// A program as commands, with two timestamps around each stretch of calls of one pass.
+/// All cloths of a scene do, or none: by the scene's method.
+bool needs_solver(const ClothModel& model) { return !model.hierarchy.empty(); }
+
+/// A program as commands, with a timestamp before, between and after its stretches of calls of one
+/// pass.
 struct Recording {
     struct Stretch {
         Pass pass;
@@ -97,7 +106,7 @@ public:
         const vk::PushConstantRange push(vk::ShaderStageFlagBits::eCompute, 0, sizeof(Push));
         const vk::DescriptorSetLayout layout = *layout_;
         pipeline_layout_ = {device_->handle(), vk::PipelineLayoutCreateInfo({}, layout, push)};
-        make_pipelines();
+        make_pipelines(models);
         cloths_.reserve(models.size());
         for (const ClothModel& model : models) cloths_.emplace_back(*device_, model, layout_);
         check_sizes(models);
@@ -106,13 +115,27 @@ public:
 
     void run(const Program& program, const FrameInput& input) override
     {
-        reserve_colliders(input.colliders.size());
+        // Places of attached nodes lie after the colliders, each a row of four numbers.
+        constexpr std::size_t rows_of_collider = sizeof(ColliderRow) / sizeof(Float4);
+        std::size_t rows = rows_of_collider * input.colliders.size();
+        for (const std::vector<Vec3>& places : input.attached) rows += places.size();
+        reserve_colliders((rows + rows_of_collider - 1) / rows_of_collider);
         for (std::size_t k = 0; k < input.colliders.size(); ++k) {
             const ColliderRow row = pack_collider(input.colliders[k]);
             std::memcpy(static_cast<ColliderRow*>(colliders_.mapped) + k, &row, sizeof row);
         }
-        for (ClothBuffers& cloth : cloths_)
-            cloth.set_parameters(input.step_length, input.collider_count, input.colliders_rest);
+        std::size_t first = rows_of_collider * input.colliders.size();
+        for (std::size_t c = 0; c < cloths_.size(); ++c) {
+            cloths_[c].set_parameters(input.step_length, input.collider_count, input.colliders_rest,
+                                      static_cast<std::uint32_t>(first));
+            if (input.attached.empty()) continue;
+            const auto& nodes = cloths_[c].model().attached;
+            for (std::size_t k = 0; k < input.attached[c].size(); ++k, ++first) {
+                const Vec3 place = input.attached[c][k];
+                const Float4 row{place.x, place.y, place.z, static_cast<float>(nodes[k % nodes.size()].node)};
+                std::memcpy(static_cast<Float4*>(colliders_.mapped) + first, &row, sizeof row);
+            }
+        }
         replay(program);
         parity_ = program.parity_after;
     }
@@ -122,8 +145,13 @@ public:
     {
         const ClothBuffers& buffers = cloths_[cloth];
         const std::size_t count = buffers.entry_count(resource);
-        if (resource == Resource::strain || resource == Resource::measures) {
-            values.resize(count * (resource == Resource::strain ? 1 : 8));
+        if (resource == Resource::multiplier && buffers.model().hierarchy.empty()) {
+            values.assign(count, 0.0f);
+            return;
+        }
+        if (resource == Resource::strain || resource == Resource::multiplier ||
+            resource == Resource::measures) {
+            values.resize(count * (resource == Resource::measures ? 8 : 1));
             device_->read(buffers.buffer(resource, parity), values.data(), values.size() * sizeof(float));
             return;
         }
@@ -133,6 +161,10 @@ public:
         for (std::size_t i = 0; i < count; ++i) std::memcpy(&values[3 * i], &padded[i], 3 * sizeof(float));
     }
 
+    std::vector<double> solver_scalars(std::uint32_t cloth) override
+    {
+        return cloths_[cloth].solver().scalar_values();
+    }
     MeasureTotals measures(std::uint32_t cloth) override { return cloths_[cloth].totals(); }
     std::vector<PassTime> pass_times() const override { return clock_.times(); }
     std::string device_name() const override { return device_->info().name; }
@@ -160,8 +192,10 @@ private:
     static constexpr std::uint32_t linear_group = 64;
     static constexpr std::uint32_t sheet_group_x = 32, sheet_group_y = 4;
 
-    void make_pipelines()
+    /// Of the constraint solver's passes only when a cloth needs them: compiling them takes its time.
+    void make_pipelines(std::span<const ClothModel> models)
     {
+        const bool solved = std::any_of(models.begin(), models.end(), needs_solver);
         const auto properties =
             device_->physical()
                 .getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceFloatControlsProperties>();
@@ -169,6 +203,7 @@ private:
         const FloatControls modes{controls.shaderDenormFlushToZeroFloat32 == VK_TRUE,
                                   controls.shaderRoundingModeRTEFloat32 == VK_TRUE};
         for (std::uint32_t p = 0; p < all_passes().size(); ++p) {
+            if (is_solver_pass(static_cast<Pass>(p)) && !solved) break;
             const auto module =
                 device_->make_shader(with_float_controls(compute_shader(static_cast<Pass>(p)), modes));
             const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module,
@@ -178,14 +213,11 @@ private:
         }
     }
 
-    /// Groups of a call in x and y.
-    struct Groups {
-        std::uint64_t x = 0, y = 1;
-    };
     Groups groups_of(const Call& call) const
     {
         const ClothBuffers& cloth = cloths_[call.cloth];
         const ClothModel& model = cloth.model();
+        if (is_solver_pass(call.pass)) return cloth.solver().groups_of(call);
         const auto groups = [](std::uint64_t n, std::uint64_t size) { return (n + size - 1) / size; };
         switch (call.pass) {
             case Pass::sheet_wind:
@@ -197,6 +229,7 @@ private:
             case Pass::sheet_measure:
             case Pass::list_measure: return {cloth.tree().levels.front().count};
             case Pass::measure_merge: return {cloth.tree().levels[call.index].count};
+            case Pass::attach: return {groups(model.attached.size(), linear_group)};
             case Pass::spring_force: return {groups(model.springs.size(), linear_group)};
             default: return {groups(model.node_count(), linear_group)};
         }
@@ -207,7 +240,12 @@ private:
     {
         const auto most = device_->physical().getProperties().limits.maxComputeWorkGroupCount;
         std::vector<Call> calls;
-        append_mass_spring_frame(models, 1, 0, calls);
+        const auto append_frame = std::none_of(models.begin(), models.end(), needs_solver)
+                                      ? append_mass_spring_frame
+                                  : models.front().solver == Solver::paper ? append_paper_frame
+                                  : models.front().method == Method::acad  ? append_acad_frame
+                                                                           : append_constraint_frame;
+        append_frame(models, 1, 0, calls);
         for (std::uint32_t c = 0; c < models.size(); ++c) append_drawing(models[c], c, 0, calls);
         for (const Call& call : calls) {
             const Groups groups = groups_of(call);
@@ -248,8 +286,8 @@ private:
                 recording.stretches.push_back({call.pass, 0});
             ++recording.stretches.back().calls;
         }
-        const auto query_count = static_cast<std::uint32_t>(2 * recording.stretches.size());
-        if (device_->timestamp_period() > 0 && query_count > 0)
+        const auto query_count = static_cast<std::uint32_t>(recording.stretches.size() + 1);
+        if (device_->timestamp_period() > 0 && !recording.stretches.empty())
             recording.queries = {device_->handle(),
                                  vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, query_count)};
         const bool timed = static_cast<bool>(*recording.queries);
@@ -264,15 +302,13 @@ private:
                 vk::AccessFlagBits::eShaderRead | vk::AccessFlagBits::eShaderWrite |
                     vk::AccessFlagBits::eUniformRead);
         BarrierPlan plan;
-        std::set<std::uint32_t> measured;
+        std::set<std::uint32_t> measured, solved;
         std::uint32_t query = 0;
+        if (timed)
+            commands.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *recording.queries, query++);
         for (std::size_t c = 0; c < program.calls.size(); ++c) {
             const Call& call = program.calls[c];
-            const bool first = c == 0 || program.calls[c - 1].pass != call.pass;
             const bool last = c + 1 == program.calls.size() || program.calls[c + 1].pass != call.pass;
-            if (timed && first)
-                commands.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *recording.queries,
-                                        query++);
             if (plan.needed_before(call))
                 barrier(commands, vk::PipelineStageFlagBits::eComputeShader, vk::AccessFlagBits::eShaderWrite,
                         vk::PipelineStageFlagBits::eComputeShader,
@@ -283,11 +319,13 @@ private:
                                         query++);
             if (call.pass == Pass::sheet_measure || call.pass == Pass::list_measure)
                 measured.insert(call.cloth);
+            if (is_solver_pass(call.pass)) solved.insert(call.cloth);
         }
-        if (!measured.empty()) {
+        if (!measured.empty() || !solved.empty()) {
             barrier(commands, vk::PipelineStageFlagBits::eComputeShader, vk::AccessFlagBits::eShaderWrite,
                     vk::PipelineStageFlagBits::eTransfer, vk::AccessFlagBits::eTransferRead);
             for (const std::uint32_t cloth : measured) cloths_[cloth].record_root_copy(commands);
+            for (const std::uint32_t cloth : solved) cloths_[cloth].solver().record_scalar_copy(commands);
             barrier(commands, vk::PipelineStageFlagBits::eTransfer, vk::AccessFlagBits::eTransferWrite,
                     vk::PipelineStageFlagBits::eHost, vk::AccessFlagBits::eHostRead);
         }
@@ -303,6 +341,14 @@ private:
             const auto from = cloth.tree().levels[call.index - 1];
             push = {call.index, from.first, from.count, cloth.tree().levels[call.index].first};
         }
+        if (call.pass == Pass::attach)
+            push.source_count = static_cast<std::uint32_t>(cloth.model().attached.size());
+        push.level = call.level;
+        push.detail = call.detail;
+        push.guard = static_cast<std::uint32_t>(call.guard);
+        const SumSlots slots = sum_slots_of(call.pass);
+        push.slot_first = slots.first;
+        push.slot_count = slots.count;
         const Groups groups = groups_of(call);
         if (groups.x == 0) return;  // a mesh without springs
         commands.bindPipeline(vk::PipelineBindPoint::eCompute,
@@ -316,16 +362,15 @@ private:
     void take_times(const Recording& recording)
     {
         // By the C entry: vulkan.hpp would allocate an array in every frame.
-        const auto count = static_cast<std::uint32_t>(2 * recording.stretches.size());
+        const auto count = static_cast<std::uint32_t>(recording.stretches.size() + 1);
         ticks_.resize(count);
         const VkResult result = recording.queries.getDispatcher()->vkGetQueryPoolResults(
             *device_->handle(), *recording.queries, 0, count, count * sizeof(std::uint64_t), ticks_.data(),
             sizeof(std::uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
         if (result != VK_SUCCESS) return;
         for (std::size_t s = 0; s < recording.stretches.size(); ++s) {
-            const double nanoseconds =
-                static_cast<double>(device_->ticks_between(ticks_[2 * s], ticks_[2 * s + 1])) *
-                device_->timestamp_period();
+            const double nanoseconds = static_cast<double>(device_->ticks_between(ticks_[s], ticks_[s + 1])) *
+                                       device_->timestamp_period();
             clock_.add(recording.stretches[s].pass, nanoseconds * 1e-6, recording.stretches[s].calls);
         }
     }

@@ -1,0 +1,290 @@
+// The method constraint: iterations of its linear systems, how cloth hangs by it, and what a frame costs.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "bench_command.hpp"
+#include "simulation/linear_benchmark.hpp"
+
+namespace pliant::tool {
+namespace {
+
+constexpr double frame = 1.0 / 60;
+constexpr double goal = 1e-3;  // |r| / |r0|
+
+std::string number(double value)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", value);
+    return text;
+}
+std::string square(std::uint32_t n) { return std::to_string(n) + " x " + std::to_string(n); }
+
+void remember_stretch(const Simulation& simulation, double& stretch)
+{
+    stretch = std::max(stretch, simulation.report().measures.max_stretch);
+}
+
+// --- linear systems -------------------------------------------------------------------------------
+
+/// Six frames from the start: smooth, in motion, and under load.
+struct DrapedState {
+    DrapedState(const Scene& scene, const SimulationOptions& options) : simulation(scene, options)
+    {
+        for (int k = 0; k < 6; ++k) {
+            simulation.advance(frame);
+            remember_stretch(simulation, stretch);
+        }
+    }
+    LinearBenchmark system(Scene scene, Preconditioner preconditioner, std::uint32_t smoothing,
+                           const SimulationOptions& options)
+    {
+        scene.newton_multigrid.resists = Resists::both;  // no spring is slack: the hardest operator
+        scene.newton_multigrid.preconditioner = preconditioner;
+        scene.newton_multigrid.smoothing = smoothing;
+        return {scene,
+                simulation.positions(),
+                simulation.velocities(),
+                simulation.step_length(),
+                simulation.backend(),
+                options};
+    }
+
+    Simulation simulation;
+    double stretch = 0;
+};
+
+BenchCase cycles_case(const BenchOptions& options, const std::string& subject,
+                      const std::function<Scene()>& scene, double compliance, double bar)
+{
+    return {subject, [=](BenchTable& table) {
+                constexpr std::uint32_t most = 200;
+                const Scene made = scene();
+                DrapedState state(made, options.simulation);
+                BenchRow row = table.row(state.simulation, subject, 1 / compliance, state.stretch);
+                for (const std::uint32_t smoothing : {1u, 3u}) {
+                    const auto solution =
+                        state.system(made, Preconditioner::multigrid, smoothing, options.simulation)
+                            .solve(goal, most);
+                    row.remark = solution.reached ? "" : "ended at |r| / |r0| = " + number(solution.residual);
+                    table.add(row, "V-cycles, smoothing " + std::to_string(smoothing),
+                              solution.reached ? solution.iterations : most, "1", at_most(bar));
+                }
+            }};
+}
+
+void add_cycles(const BenchOptions& options, std::vector<BenchCase>& cases)
+{
+    std::vector<std::uint32_t> sheets = {33, 65, 129, 257, 513, 1025},
+                               meshes = {2'500, 10'000, 40'000, 100'000};
+    std::vector<double> compliances = {1e-8, 1e-6, 1e-4};
+    if (options.quick) sheets = {17, 33}, meshes = {400}, compliances = {1e-6};
+    for (const bool bend : {false, true})
+        for (const std::uint32_t n : sheets)
+            for (const double compliance : compliances)
+                cases.push_back(cycles_case(
+                    options, "linear system, " + square(n) + (bend ? ", all classes" : ", 2 classes"),
+                    [=] {
+                        Scene scene = hanging_sheet(n, compliance);
+                        if (bend) bend_by_constraints(scene, compliance);
+                        return scene;
+                    },
+                    compliance, 20));
+    for (const std::uint32_t nodes : meshes)
+        for (const double compliance : compliances)
+            cases.push_back(cycles_case(
+                options, "linear system, irregular mesh, " + std::to_string(nodes),
+                [=] { return hanging_mesh(nodes, compliance); }, compliance, 25));
+}
+
+/// The same system by the three preconditioners, in turn.
+void add_preconditioners(const BenchOptions& options, std::vector<BenchCase>& cases)
+{
+    const std::uint32_t n = options.quick ? 24 : 128;
+    const std::string subject = "preconditioners, " + square(n) + ", all classes";
+    cases.push_back(
+        {subject, [=](BenchTable& table) {
+             constexpr double compliance = 1e-6;
+             constexpr std::uint32_t most = 20'000;
+             Scene scene = hanging_sheet(n, compliance);
+             bend_by_constraints(scene, compliance);
+             DrapedState state(scene, options.simulation);
+             const bool far = state.simulation.backend() == Backend::vulkan;
+             struct Way {
+                 Preconditioner preconditioner;
+                 const char* name;
+                 std::uint32_t between;  // a look at a device costs more than an iteration without cycles
+                 double bar;
+                 std::vector<double> milliseconds = {};
+                 LinearBenchmark::Solution solution = {};
+             };
+             std::vector<Way> ways = {{Preconditioner::multigrid, "multigrid", 1, 0},
+                                      {Preconditioner::jacobi, "jacobi", far ? 16u : 1u, 8},
+                                      {Preconditioner::none, "none", far ? 16u : 1u, 50}};
+             std::vector<LinearBenchmark> systems;
+             for (const Way& way : ways)
+                 systems.push_back(state.system(scene, way.preconditioner, scene.newton_multigrid.smoothing,
+                                                options.simulation));
+             for (int turn = 0; turn < 4; ++turn)
+                 for (std::size_t k = 0; k < ways.size(); ++k) {
+                     ways[k].solution = systems[k].solve(goal, most, ways[k].between);
+                     if (turn > 0) ways[k].milliseconds.push_back(ways[k].solution.milliseconds);
+                 }
+             const double multigrid = median_of(ways[0].milliseconds);
+             BenchRow row = table.row(state.simulation, subject, 1 / compliance, state.stretch);
+             for (const Way& way : ways) {
+                 const double ms = median_of(way.milliseconds);
+                 row.remark =
+                     std::to_string(way.solution.iterations) + " iterations" +
+                     (way.solution.reached ? "" : ", ended at |r| / |r0| = " + number(way.solution.residual));
+                 table.add(row, std::string("time, ") + way.name, ms, "ms");
+                 if (way.bar > 0)
+                     table.add(row, std::string("time, ") + way.name + " / multigrid", ms / multigrid, "1",
+                               at_least(way.bar));
+             }
+         }});
+}
+
+// --- hanging --------------------------------------------------------------------------------------
+
+/// What happens to a sheet that is let go.
+struct Fall {
+    std::array<double, 3> heights{};  ///< m, of the middle of the free edge after 15, 30 and 45 frames
+    double energy = 0;                ///< J, after 1 s
+    double stretch = 0, stretch_late = 0, speed_late = 0;
+    double milliseconds = 0;  ///< median of a frame
+};
+
+Fall let_fall(Simulation& simulation, std::uint32_t n, int frames)
+{
+    Fall fall;
+    std::vector<double> milliseconds;
+    for (int k = 1; k <= frames; ++k) {
+        milliseconds.push_back(milliseconds_to_advance(simulation, frame));
+        const FrameMeasures& m = simulation.report().measures;
+        remember_stretch(simulation, fall.stretch);
+        if (k > frames - 60) {
+            remember_stretch(simulation, fall.stretch_late);
+            fall.speed_late = std::max(fall.speed_late, m.max_speed);
+        }
+        if (k % 15 == 0 && k <= 45) {
+            const auto x = simulation.positions();
+            const std::size_t last_row = std::size_t{n - 1} * n;
+            fall.heights[static_cast<std::size_t>(k / 15 - 1)] =
+                0.5 * (double{x[last_row + (n - 1) / 2].y} + double{x[last_row + n / 2].y});
+        }
+        if (k == 60) fall.energy = m.kinetic_energy + m.potential_energy + m.elastic_energy;
+    }
+    fall.milliseconds = median_of(milliseconds);
+    return fall;
+}
+
+/// Runs that are converged, to compare with; each is made once, when first asked for.
+class ConvergedFalls {
+public:
+    explicit ConvergedFalls(const BenchOptions& options) : options_(options) {}
+
+    const Fall& operator()(std::uint32_t n, double stiffness, double density)
+    {
+        Fall& fall = falls_[{n, stiffness, density}];
+        if (fall.milliseconds > 0) return fall;
+        Scene scene = hanging_sheet(n, 1 / stiffness, density);
+        scene.newton_multigrid.newton_iterations = 40;
+        scene.newton_multigrid.newton_tolerance = 0.003;
+        scene.newton_multigrid.linear_iterations = 60;
+        scene.newton_multigrid.linear_tolerance = 0.02;
+        Simulation simulation(scene, options_.simulation);
+        return fall = let_fall(simulation, n, 60);
+    }
+
+private:
+    BenchOptions options_;
+    std::map<std::tuple<std::uint32_t, double, double>, Fall> falls_;
+};
+
+struct HangingSize {
+    std::uint32_t n;
+    double stiffness, density;
+    double frames_per_second;  ///< asked for; 0 is nothing
+};
+
+BenchCase hanging_case(const BenchOptions& options, const HangingSize& size,
+                       const std::shared_ptr<ConvergedFalls>& converged)
+{
+    const std::string subject = "hanging, " + square(size.n) + ", " + number(size.density) + " kg/m2";
+    return {subject, [=](BenchTable& table) {
+                Simulation simulation(hanging_sheet(size.n, 1 / size.stiffness, size.density),
+                                      options.simulation);
+                const Fall fall = let_fall(simulation, size.n, options.quick ? 60 : 600);
+                const BenchRow row = table.row(simulation, subject, size.stiffness, fall.stretch);
+                table.add(row, "stretch, ever", 100 * fall.stretch, "%", at_most(1));
+                table.add(row, "stretch, last second", 100 * fall.stretch_late, "%", at_most(0.5));
+                const Fall& exact = (*converged)(options.quick ? 16 : 64, size.stiffness, size.density);
+                constexpr std::array height_bars = {2.0, 4.0, 8.0};
+                for (std::size_t k = 0; k < height_bars.size(); ++k)
+                    table.add(row, "height off, frame " + std::to_string(15 * (k + 1)),
+                              100 * std::abs(fall.heights[k] - exact.heights[k]), "cm",
+                              at_most(height_bars[k]));
+                table.add(row, "frames", 1000 / fall.milliseconds, "1/s",
+                          size.frames_per_second > 0 ? at_least(size.frames_per_second) : Bar{});
+                const SolverReport& solver = simulation.report().solver;
+                table.add(row, "Newton iterations per frame", solver.newton_mean, "1");
+                table.add(row, "V-cycles per frame", solver.iterations_mean, "1");
+                table.add(row, "speed, last second", fall.speed_late, "m/s");
+                if (size.n > 64) return;
+                const double scale = size.density * 9.81;  // m g L of 1 m x 1 m
+                const Fall& same = (*converged)(size.n, size.stiffness, size.density);
+                table.add(row, "energy off after 1 s, of m g L",
+                          100 * std::abs(fall.energy - same.energy) / scale, "%", at_most(5));
+            }};
+}
+
+void add_hanging(const BenchOptions& options, std::vector<BenchCase>& cases)
+{
+    std::vector<HangingSize> sizes = {{32, 1e6, 0.3, 0},  {64, 1e6, 0.3, 0},   {128, 1e6, 0.3, 100},
+                                      {128, 1e6, 1.0, 0}, {256, 2e5, 0.3, 30}, {512, 2e5, 0.3, 0}};
+    if (options.quick) sizes = {{16, 1e6, 0.3, 0}, {24, 2e5, 1.0, 0}};
+    const auto converged = std::make_shared<ConvergedFalls>(options);
+    for (const HangingSize& size : sizes) cases.push_back(hanging_case(options, size, converged));
+}
+
+// --- one core -------------------------------------------------------------------------------------
+
+void add_one_thread(BenchOptions options, std::vector<BenchCase>& cases)
+{
+    options.simulation.threads = 1;
+    const std::uint32_t large = options.quick ? 24 : 96, small = options.quick ? 16 : 34;
+    const int frames = options.quick ? 30 : 600;
+    const std::string large_name = "one thread, " + square(large) + ", 1 kg";
+    cases.push_back({large_name, [=](BenchTable& table) {
+                         Simulation simulation(hanging_sheet(large, 1e-6, 1.0), options.simulation);
+                         const Fall fall = let_fall(simulation, large, frames);
+                         table.add(table.row(simulation, large_name, 1e6, fall.stretch), "frame",
+                                   fall.milliseconds, "ms", at_most(17));
+                     }});
+    const std::string small_name = "one thread, " + square(small) + ", 0.3 kg";
+    cases.push_back({small_name, [=](BenchTable& table) {
+                         Simulation simulation(hanging_sheet(small, 1e-6), options.simulation);
+                         const Fall fall = let_fall(simulation, small, frames);
+                         const BenchRow row = table.row(simulation, small_name, 1e6, fall.stretch);
+                         table.add(row, "frames", 1000 / fall.milliseconds, "1/s", at_least(300));
+                         table.add(row, "stretch, ever", 100 * fall.stretch, "%", at_most(0.5));
+                     }});
+}
+
+}  // namespace
+
+std::vector<BenchCase> constraint_cases(const BenchOptions& options)
+{
+    std::vector<BenchCase> cases;
+    add_cycles(options, cases);
+    add_preconditioners(options, cases);
+    add_hanging(options, cases);
+    add_one_thread(options, cases);
+    return cases;
+}
+
+}  // namespace pliant::tool

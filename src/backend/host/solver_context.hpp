@@ -1,0 +1,64 @@
+// What a pass of the constraint solver is given on the host: where its numbers lie, and the constants of the
+// step.
+#pragma once
+
+#include <cstddef>
+
+#include "body/hierarchy.hpp"
+#include "laws/laws.hpp"
+#include "solve/pass.hpp"
+
+namespace pliant {
+
+template <class Number>
+struct SolverConstants {
+    /// As LimitCurve of laws/limit.law.glsl.
+    struct Curve {
+        Number below{}, limit{}, beyond{}, compressed{}, damping{};
+    };
+    Number dt{}, inverse_dt{}, decay{}, thickness{};
+    Vector3<Number> gravity{};
+    Curve curves[3]{};  ///< by class
+    bool has[3]{};      ///< classes that are not off
+    bool has_damping = false;
+    bool exact_bend = false;   ///< bend springs are stiff: the operator has them as they are, not folded
+    Number rest_lengths[5]{};  ///< m, of a sheet
+    Number contact_stiffness{}, slip{};
+    // ACAD, by length squared over rest length squared: see kernels/acad.kernel.glsl.
+    bool is_acad = false, acad_has_memory = false;
+    Number acad_above2{}, acad_below2{}, acad_held_above2{}, acad_held_below2{}, acad_near_above2{},
+        acad_near_below2{};
+    Number linear_tolerance{}, newton_tolerance{};
+    static constexpr int most_relaxations = 8;
+    Number relaxations[most_relaxations]{};
+};
+
+template <class Number>
+struct NumberPlanes {
+    Number *x = nullptr, *y = nullptr, *z = nullptr;
+};
+
+/// Rows of a sheet that sheet_springs and sheet_gather work on together, and numbers of a plane of them.
+constexpr int window_rows = 8;
+constexpr std::ptrdiff_t window_size(int stride) { return std::ptrdiff_t{stride} * (window_rows + 3); }
+
+template <class Number>
+struct SolverContext {
+    Number* arena = nullptr;
+    const SolverLevel* levels = nullptr;
+    const std::int32_t* topology = nullptr;
+    Number* scalars = nullptr;
+    Number* parts = nullptr;  ///< sums of segments, a row for each slot
+    int part_stride = 0;
+    Number* window = nullptr;  ///< of a part of sheet_springs and sheet_gather that run as one, else null
+    const int* part_counts = nullptr;  ///< by slot
+    int bottom_base = 0, border_rows = 0, pad = 0;
+    NumberPlanes<Number> position, velocity, next_position, next_velocity, external_force;
+    Number* multiplier = nullptr;
+    const Number *inverse_mass = nullptr, *mass = nullptr;
+    const SolverConstants<Number>* constants = nullptr;
+    const typename Laws<Number>::Collider* colliders = nullptr;
+    int collider_count = 0;
+};
+
+}  // namespace pliant

@@ -1,0 +1,532 @@
+// The constraint solver's passes on the host: the same text that the shaders compile (src/kernels), once for
+// each type of number. SolverKernels<double> is the reference, SolverKernels<Pack<W>> works on W nodes of a
+// row at a time. Nothing of the standard library is used here, so that a file for one instruction set can
+// include it.
+#pragma once
+
+#include "backend/host/lanes.hpp"
+#include "backend/host/solver_context.hpp"
+#include "body/hierarchy.hpp"
+#include "kernels/planes.hpp"
+#include "laws/laws.hpp"
+#include "solve/pass.hpp"
+
+namespace pliant {
+
+template <class T>
+struct SolverKernels {
+    using Number = typename Lanes<T>::Number;
+    using Context = SolverContext<Number>;
+    using real = T;
+    using vec3 = Vector3<T>;
+    using vec4 = Vector4<T>;
+    using mask = decltype(T{} > T{});
+    static constexpr int inverse_sqrt_steps = NumberTraits<T>::inverse_sqrt_steps;
+
+    static real inverse_sqrt_seed(real a) { return NumberTraits<T>::inverse_sqrt_seed(a); }
+    static mask is_finite(real a) { return NumberTraits<T>::is_finite(a); }
+    static mask both(mask a, mask b) { return NumberTraits<T>::both(a, b); }
+    static bool any_lane(mask a) { return NumberTraits<T>::any_lane(a); }
+    static real choose(mask m, real a, real b) { return NumberTraits<T>::choose(m, a, b); }
+    static vec3 choose(mask m, vec3 a, vec3 b)
+    {
+        return {choose(m, a.x, b.x), choose(m, a.y, b.y), choose(m, a.z, b.z)};
+    }
+    static vec3 xyz(vec4 a) { return {a.x, a.y, a.z}; }
+    static real multiply_add(real a, real b, real c) { return Lanes<T>::multiply_add(a, b, c); }
+
+#define LAW static inline
+#include "laws/all.law.glsl"
+#undef LAW
+
+    // --- what the kernels' text calls
+    // ------------------------------------------------------------------------
+
+#define KERNEL inline __attribute__((always_inline))
+#define UNROLL _Pragma("GCC unroll 9")
+#include "kernels/block.kernel.glsl"
+
+    const Context context;  // by value: what a kernel knows stays in registers, whatever it writes
+    const SolverConstants<Number> constants;
+    SolverLevel level, finer;
+    T sums[2];
+
+    SolverKernels(const Context& c, const Call& call)
+        : context(c),
+          constants(*c.constants),
+          level(c.levels[call.level]),
+          finer(c.levels[call.level > 0 ? call.level - 1 : 0]),
+          base_(c.arena + level.base),
+          finer_base_(c.arena + finer.base),
+          spring_base_(c.arena + level.base + Distance{plane_spring} * level.size),
+          size_(level.size),
+          finer_size_(finer.size),
+          spring_size_(level.size),
+          detail_(call.detail),
+          is_cloth_(call.level == 0),
+          finer_is_cloth_(call.level == 1)
+    {
+    }
+
+    // Planes are addressed by pointers and their distance, three from one: that is what the processor does
+    // for nothing.
+    using Distance = decltype(static_cast<Number*>(nullptr) - static_cast<Number*>(nullptr));
+    Number* at(int plane, int o) const
+    {
+        return plane >= plane_spring ? spring_base_ + ((plane - plane_spring) * spring_size_ + o)
+                                     : base_ + (plane * size_ + o);
+    }
+    const Number* finer_at(int plane, int o) const { return finer_base_ + (plane * finer_size_ + o); }
+    Distance distance(int plane) const { return plane >= plane_spring ? spring_size_ : size_; }
+    real load(int plane, int o) const { return Lanes<T>::load(at(plane, o)); }
+    void store(int plane, int o, real a) const { Lanes<T>::store(at(plane, o), a); }
+    template <auto load_one>
+    static vec3 three(const Number* p, Distance size)
+    {
+        return {load_one(p), load_one(p + size), load_one(p + 2 * size)};
+    }
+    template <auto load_one>
+    static Symmetric six(const Number* p, Distance size)
+    {
+        const Number* q = p + 3 * size;
+        return {load_one(p), load_one(p + size), load_one(p + 2 * size),
+                load_one(q), load_one(q + size), load_one(q + 2 * size)};
+    }
+    vec3 load3(int plane, int o) const { return three<&Lanes<T>::load>(at(plane, o), distance(plane)); }
+    Symmetric load6(int plane, int o) const { return six<&Lanes<T>::load>(at(plane, o), distance(plane)); }
+    static void put3(Number* p, Distance size, real x, real y, real z)
+    {
+        Lanes<T>::store(p, x);
+        Lanes<T>::store(p + size, y);
+        Lanes<T>::store(p + 2 * size, z);
+    }
+    void store3(int plane, int o, vec3 a) const { put3(at(plane, o), distance(plane), a.x, a.y, a.z); }
+    void store6(int plane, int o, Symmetric a) const
+    {
+        Number* p = at(plane, o);
+        put3(p, distance(plane), a.xx, a.xy, a.xz);
+        put3(p + 3 * distance(plane), distance(plane), a.yy, a.yz, a.zz);
+    }
+    /// Every other node of the finer level, one for each lane.
+    vec3 finer_load3(int plane, int o) const
+    {
+        return three<&Lanes<T>::load_even>(finer_at(plane, o), finer_size_);
+    }
+    Symmetric finer_load6(int plane, int o) const
+    {
+        return six<&Lanes<T>::load_even>(finer_at(plane, o), finer_size_);
+    }
+    /// Adds to the nodes of the finer level at o and after it, by turns, where there are free nodes.
+    void finer_add3(int plane, int o, vec3 even, vec3 odd) const
+    {
+        const Number* is_there = finer_at(plane_factor, o);
+        Number* p = finer_base_ + (plane * finer_size_ + o);
+        Lanes<T>::add_by_turns(p, even.x, odd.x, is_there);
+        Lanes<T>::add_by_turns(p + finer_size_, even.y, odd.y, is_there);
+        Lanes<T>::add_by_turns(p + 2 * finer_size_, even.z, odd.z, is_there);
+    }
+    int finer_coupling(int k) const
+    {
+        const bool folded = finer_is_cloth_ && constants.exact_bend && (k == 0 || k == 2);
+        return folded ? plane_fold + 3 * k : plane_block + 6 * k;
+    }
+
+    static real spread(Number a) { return Lanes<T>::spread(a); }
+    static vec3 spread(Vector3<Number> a) { return {spread(a.x), spread(a.y), spread(a.z)}; }
+    int source_plane() const { return detail_ % 2 == 0 ? plane_z : plane_w; }
+    int target_plane() const { return detail_ % 2 == 0 ? plane_w : plane_z; }
+    /// Of sheet_prolong, which reads one copy of its own level and adds to another of the finer one.
+    int finer_plane() const { return detail_ / 2 % 2 == 0 ? plane_z : plane_w; }
+    real relaxation() const { return spread(constants.relaxations[detail_ / 2]); }
+    real scalar(int k) const { return spread(context.scalars[k]); }
+    void set_scalar(int k, real a) const { context.scalars[k] = Lanes<T>::first(a); }
+    real total(int slot) const
+    {
+        double sum = 0;
+        const Number* parts = context.parts + slot * context.part_stride;
+        for (int k = 0; k < context.part_counts[slot]; ++k) sum += static_cast<double>(parts[k]);
+        return spread(static_cast<Number>(sum));
+    }
+
+    bool sheet_has(int k) const { return constants.has[sheet_class(k)]; }
+    static int sheet_class(int k) { return k >= 4 ? 2 : k % 2; }
+    LimitCurve sheet_curve(int k) const { return class_curve(sheet_class(k)); }
+    LimitCurve class_curve(int k) const
+    {
+        const auto& c = constants.curves[k];
+        return {spread(c.below), spread(c.limit), spread(c.beyond), spread(c.compressed), spread(c.damping)};
+    }
+    real sheet_rest(int k) const
+    {
+        constexpr int rest[] = {0, 2, 1, 2, 3, 4};
+        return spread(constants.rest_lengths[rest[k]]);
+    }
+    bool has_damping() const { return constants.has_damping; }
+    bool has_bend() const { return constants.has[2]; }
+    bool exact_bend() const { return is_cloth_ && constants.exact_bend && constants.has[2]; }
+    real contact_stiffness() const { return spread(constants.contact_stiffness); }
+    real slip() const { return spread(constants.slip); }
+    real thickness() const { return spread(constants.thickness); }
+    real decay() const { return spread(constants.decay); }
+    real step_length() const { return spread(constants.dt); }
+    real inverse_step() const { return spread(constants.inverse_dt); }
+    vec3 gravity() const { return spread(constants.gravity); }
+    real linear_tolerance() const { return spread(constants.linear_tolerance); }
+    real newton_tolerance() const { return spread(constants.newton_tolerance); }
+
+    int collider_count() const { return context.collider_count; }
+    Collider collider(int k) const
+    {
+        const auto& a = context.colliders[k];
+        Collider c;
+        c.kind = a.kind;
+        c.response = a.response;
+        c.centre = spread(a.centre);
+        c.axis_x = spread(a.axis_x);
+        c.axis_y = spread(a.axis_y);
+        c.axis_z = spread(a.axis_z);
+        c.half_size = spread(a.half_size);
+        c.radius = spread(a.radius);
+        c.friction = spread(a.friction);
+        c.velocity = spread(a.velocity);
+        c.spin = spread(a.spin);
+        return c;
+    }
+
+    template <class P>
+    static vec3 load_planes(const P& p, int o)
+    {
+        return {Lanes<T>::load(p.x + o), Lanes<T>::load(p.y + o), Lanes<T>::load(p.z + o)};
+    }
+    vec3 node_position(int o) const { return load_planes(context.position, o); }
+    vec3 node_velocity(int o) const { return load_planes(context.velocity, o); }
+    vec3 node_next_position(int o) const { return load_planes(context.next_position, o); }
+    vec3 node_next_velocity(int o) const { return load_planes(context.next_velocity, o); }
+    vec3 node_force(int o) const { return load_planes(context.external_force, o); }
+    real node_inverse_mass(int o) const { return Lanes<T>::load(context.inverse_mass + o); }
+    real node_mass(int o) const { return Lanes<T>::load(context.mass + o); }
+    void node_end(int o, vec3 x, vec3 v) const
+    {
+        Lanes<T>::store(context.next_position.x + o, x.x);
+        Lanes<T>::store(context.next_position.y + o, x.y);
+        Lanes<T>::store(context.next_position.z + o, x.z);
+        Lanes<T>::store(context.next_velocity.x + o, v.x);
+        Lanes<T>::store(context.next_velocity.y + o, v.y);
+        Lanes<T>::store(context.next_velocity.z + o, v.z);
+    }
+
+    bool is_first_look() const { return is_cloth_ && detail_ == 1; }
+    bool is_acad() const { return constants.is_acad; }
+    bool acad_has_memory() const { return constants.acad_has_memory; }
+    real acad_above2() const { return spread(constants.acad_above2); }
+    real acad_below2() const { return spread(constants.acad_below2); }
+    real acad_held_above2() const { return spread(constants.acad_held_above2); }
+    real acad_held_below2() const { return spread(constants.acad_held_below2); }
+    real acad_near_above2() const { return spread(constants.acad_near_above2); }
+    real acad_near_below2() const { return spread(constants.acad_near_below2); }
+    void set_multiplier(int o, real a) const { Lanes<T>::store(context.multiplier + o, a); }
+    bool in_halo() const { return in_halo_; }
+    mask inside_level() const { return inside_; }
+
+    int topology(int k) const { return context.topology[k]; }
+    /// Of a mesh's edges: numbers of one edge lie together.
+    Number* edge_at(int plane, int numbers, int e) const
+    {
+        return context.arena + (level.edge_base + plane * level.edge_size + numbers * e);
+    }
+    real edge_load(int plane, int e) const { return spread(*edge_at(plane, 1, e)); }
+    void edge_store(int plane, int e, real a) const { *edge_at(plane, 1, e) = Lanes<T>::first(a); }
+    vec3 edge_load3(int plane, int e) const
+    {
+        const Number* p = edge_at(plane, 3, e);
+        return {spread(p[0]), spread(p[1]), spread(p[2])};
+    }
+    void edge_store3(int plane, int e, vec3 a) const
+    {
+        Number* p = edge_at(plane, 3, e);
+        p[0] = Lanes<T>::first(a.x);
+        p[1] = Lanes<T>::first(a.y);
+        p[2] = Lanes<T>::first(a.z);
+    }
+    static Symmetric edge_six(const Number* p)
+    {
+        return {spread(p[0]), spread(p[1]), spread(p[2]), spread(p[3]), spread(p[4]), spread(p[5])};
+    }
+    Symmetric edge_load6(int plane, int e) const { return edge_six(edge_at(plane, 6, e)); }
+    Symmetric finer_edge_load6(int plane, int e) const
+    {
+        return edge_six(context.arena + (finer.edge_base + plane * finer.edge_size + 6 * e));
+    }
+    void edge_store6(int plane, int e, Symmetric a) const
+    {
+        const real numbers[] = {a.xx, a.xy, a.xz, a.yy, a.yz, a.zz};
+        Number* p = edge_at(plane, 6, e);
+        for (int k = 0; k < 6; ++k) p[k] = Lanes<T>::first(numbers[k]);
+    }
+    void finer_store3(int plane, int o, vec3 a) const
+    {
+        put3(finer_base_ + (plane * finer_size_ + o), finer_size_, a.x, a.y, a.z);
+    }
+    real topology_weight(int k) const
+    {
+        return spread(static_cast<Number>(__builtin_bit_cast(float, topology(k))));
+    }
+    real number(int k) const { return spread(context.arena[k]); }
+    void set_number(int k, real a) const { context.arena[k] = Lanes<T>::first(a); }
+    static int whole(real a) { return static_cast<int>(Lanes<T>::first(a)); }
+    int scan_level() const { return static_cast<int>(detail_); }
+
+    int bottom_nodes() const { return level.rows * level.columns; }
+    Number* bottom() const { return context.arena + context.bottom_base; }
+    real bottom_get(int k) const { return spread(bottom()[k]); }
+    void bottom_set(int k, real a) const { bottom()[k] = Lanes<T>::first(a); }
+    Number* bottom_number(int plane, int k) const
+    {
+        const int node = k / 3;
+        return at(plane + k % 3, level_offset(node / level.columns, node % level.columns));
+    }
+    real bottom_vector(int plane, int k) const { return spread(*bottom_number(plane, k)); }
+    void bottom_set_vector(int plane, int k, real a) const { *bottom_number(plane, k) = Lanes<T>::first(a); }
+    int level_offset(int row, int column) const
+    {
+        return (row + context.border_rows) * level.stride + context.pad + column;
+    }
+    int finer_offset(int row, int column) const
+    {
+        return (row + context.border_rows) * finer.stride + context.pad + column;
+    }
+
+#include "kernels/acad.kernel.glsl"
+#include "kernels/linear.kernel.glsl"
+#include "kernels/newton.kernel.glsl"
+#include "kernels/sheet.kernel.glsl"
+    // For one invocation, and T a plain number:
+#include "kernels/bottom.kernel.glsl"
+#include "kernels/mesh.kernel.glsl"
+#include "kernels/paper.kernel.glsl"
+#include "kernels/serial.kernel.glsl"
+#undef KERNEL
+#undef UNROLL
+
+    // --- how they run
+    // ------------------------------------------------------------------------------------------
+
+    /// Runs the part [begin, end) of a pass over nodes: rows, in segments of `segment_columns`.
+    void run(Pass pass, int begin, int end)
+    {
+        if constexpr (Lanes<T>::count == 1)
+            if (is_paper_pass(pass)) return run_paper(pass, begin, end);
+        if constexpr (Lanes<T>::count == 1)
+            if (is_mesh_pass(pass)) return run_mesh(pass, begin, end);
+        using K = SolverKernels;
+        switch (pass) {
+            case Pass::step_begin: return nodes<&K::step_begin>(pass, begin, end);
+            case Pass::sheet_springs: return nodes<&K::sheet_springs>(pass, begin, end);
+            case Pass::sheet_gather:
+                if (context.window) return evaluate(begin, end);
+                return nodes<&K::sheet_gather>(pass, begin, end);
+            case Pass::sheet_coarsen: return cells<&K::sheet_coarsen>(begin, end, level.rows, level.columns);
+            case Pass::linear_begin: return nodes<&K::linear_begin>(pass, begin, end);
+            case Pass::level_smooth: return nodes<&K::level_smooth>(pass, begin, end);
+            case Pass::level_residual: return nodes<&K::level_residual>(pass, begin, end);
+            case Pass::sheet_restrict:
+                return cells<&K::sheet_restrict>(begin, end, level.rows, level.columns);
+            case Pass::sheet_prolong:
+                return cells<&K::sheet_prolong>(begin, end, (finer.rows + 1) / 2, (finer.columns + 1) / 2);
+            case Pass::linear_jacobi: return nodes<&K::linear_jacobi>(pass, begin, end);
+            case Pass::linear_plain: return nodes<&K::linear_plain>(pass, begin, end);
+            case Pass::linear_direction: return nodes<&K::linear_direction>(pass, begin, end);
+            case Pass::linear_apply: return nodes<&K::linear_apply>(pass, begin, end);
+            case Pass::linear_update: return nodes<&K::linear_update>(pass, begin, end);
+            case Pass::newton_move: return nodes<&K::newton_move>(pass, begin, end);
+            case Pass::search_move: return nodes<&K::search_move>(pass, begin, end);
+            case Pass::step_end: return nodes<&K::step_end>(pass, begin, end);
+            case Pass::sheet_limits: return nodes<&K::sheet_limits>(pass, begin, end);
+            case Pass::sheet_marks: return nodes<&K::sheet_marks>(pass, begin, end);
+            case Pass::acad_begin: return nodes<&K::acad_begin>(pass, begin, end);
+            case Pass::acad_end: return nodes<&K::acad_end>(pass, begin, end);
+            case Pass::sheet_multipliers: return nodes<&K::sheet_multipliers>(pass, begin, end);
+            default: return;
+        }
+    }
+
+    /// Runs a pass of one invocation.
+    void run_single(Pass pass)
+    {
+        switch (pass) {
+            case Pass::solve_reset: return solve_reset();
+            case Pass::solve_begin: return solve_begin();
+            case Pass::bottom_factor: return bottom_factor();
+            case Pass::mesh_bottom_factor: return mesh_bottom_factor();
+            case Pass::linear_start: return linear_start();
+            case Pass::bottom_solve: return bottom_solve();
+            case Pass::linear_beta: return linear_beta();
+            case Pass::linear_alpha: return linear_alpha();
+            case Pass::linear_check: return linear_check();
+            case Pass::search_begin: return search_begin();
+            case Pass::search_check: return search_check();
+            case Pass::newton_check: return newton_check();
+            case Pass::acad_check: return acad_check();
+            case Pass::solve_end: return solve_end();
+            case Pass::paper_count: return paper_count();
+            case Pass::paper_start: return paper_start();
+            case Pass::paper_alpha: return paper_alpha();
+            case Pass::paper_check: return paper_check();
+            case Pass::paper_end: return paper_end();
+            default: return;
+        }
+    }
+
+private:
+    /// Of meshes: over segments of nodes or of edges.
+    void run_mesh(Pass pass, int begin, int end)
+    {
+        using K = SolverKernels;
+        switch (pass) {
+            case Pass::mesh_springs: return rows<&K::mesh_springs>(pass, begin, end, level.edges);
+            case Pass::mesh_gather: return nodes<&K::mesh_gather>(pass, begin, end);
+            case Pass::mesh_coarsen_couplings:
+                return rows<&K::mesh_coarsen_couplings>(pass, begin, end, level.edges);
+            case Pass::mesh_coarsen_nodes: return nodes<&K::mesh_coarsen_nodes>(pass, begin, end);
+            case Pass::mesh_apply: return nodes<&K::mesh_apply>(pass, begin, end);
+            case Pass::mesh_smooth: return nodes<&K::mesh_smooth>(pass, begin, end);
+            case Pass::mesh_residual: return nodes<&K::mesh_residual>(pass, begin, end);
+            case Pass::mesh_restrict: return nodes<&K::mesh_restrict>(pass, begin, end);
+            case Pass::mesh_limits: return nodes<&K::mesh_limits>(pass, begin, end);
+            case Pass::mesh_marks: return rows<&K::mesh_marks>(pass, begin, end, level.edges);
+            case Pass::mesh_multipliers: return nodes<&K::mesh_multipliers>(pass, begin, end);
+            case Pass::mesh_prolong: return finer_nodes<&K::mesh_prolong>(begin, end);
+            default: return;
+        }
+    }
+    template <auto kernel>
+    void finer_nodes(int begin, int end)
+    {
+        SolverKernels self = *this;
+        const int last = end * segment_columns < finer.columns ? end * segment_columns : finer.columns;
+        for (int column = begin * segment_columns; column < last; ++column)
+            (self.*kernel)(finer_offset(0, column));
+    }
+
+    /// Of the solver paper: over segments of nodes or of rows, or over blocks of the prefix sum.
+    void run_paper(Pass pass, int begin, int end)
+    {
+        using K = SolverKernels;
+        const int count = whole(scalar(scalar_rows));
+        switch (pass) {
+            case Pass::paper_begin: return nodes<&K::paper_begin>(pass, begin, end);
+            case Pass::paper_springs:
+                return rows<&K::paper_springs>(pass, begin, end, topology(rows_springs));
+            case Pass::paper_gather: return numbered_nodes<&K::paper_gather>(begin, end);
+            case Pass::paper_scan:
+                for (int block = begin; block < end; ++block) paper_scan(block);
+                return;
+            case Pass::paper_list: return rows<&K::paper_list>(pass, begin, end, topology(rows_constraints));
+            case Pass::paper_system: return rows<&K::paper_system>(pass, begin, end, count);
+            case Pass::paper_apply: return rows<&K::paper_apply>(pass, begin, end, count);
+            case Pass::paper_update: return rows<&K::paper_update>(pass, begin, end, count);
+            case Pass::paper_direction: return rows<&K::paper_direction>(pass, begin, end, count);
+            case Pass::paper_multipliers: return rows<&K::paper_multipliers>(pass, begin, end, count);
+            case Pass::paper_export: return nodes<&K::paper_export>(pass, begin, end);
+            case Pass::paper_step: return numbered_nodes<&K::paper_step>(begin, end);
+            default: return;
+        }
+    }
+
+    /// Rows in segments of `segment_columns`; those beyond the `count`-th row have nothing but empty sums.
+    template <auto kernel>
+    void rows(Pass pass, int begin, int end, int count)
+    {
+        const SumSlots slots = sum_slots_of(pass);
+        SolverKernels self = *this;
+        for (int segment = begin; segment < end; ++segment) {
+            const int first = segment * segment_columns;
+            const int last = first + segment_columns < count ? first + segment_columns : count;
+            self.sums[0] = self.sums[1] = spread(Number(0));
+            for (int k = first; k < last; ++k) (self.*kernel)(k);
+            for (unsigned k = 0; k < slots.count; ++k)
+                context.parts[int(slots.first + k) * context.part_stride + segment] =
+                    Lanes<T>::sum(self.sums[k]);
+        }
+    }
+    template <auto kernel>
+    void numbered_nodes(int begin, int end)
+    {
+        const int per_row = (level.columns + segment_columns - 1) / segment_columns;
+        for (int segment = begin; segment < end; ++segment) {
+            const int row = segment / per_row, first = segment % per_row * segment_columns;
+            const int last =
+                first + segment_columns < level.columns ? first + segment_columns : level.columns;
+            for (int column = first; column < last; ++column)
+                (this->*kernel)(level_offset(row, column), row * level.columns + column);
+        }
+    }
+
+    /// sheet_springs and sheet_gather at once, a few rows after the others, so that what springs have to say
+    /// to nodes stays in the cache: it is most of what the two passes move. Rows above a block are computed
+    /// again.
+    void evaluate(int begin, int end)
+    {
+        const int halo = 2;
+        for (int first = begin; first < end; first += window_rows) {
+            const int last = first + window_rows < end ? first + window_rows : end;
+            SolverKernels block = *this;
+            block.spring_size_ = window_size(level.stride);
+            block.spring_base_ = context.window + context.pad - level_offset(first - halo, 0);
+            if (first == 0)  // there are no springs above the sheet
+                for (Distance plane = 0; plane < sheet_planes - plane_spring; ++plane)
+                    for (int k = 0; k < halo * level.stride + context.pad; ++k)
+                        context.window[plane * block.spring_size_ + k] = Number(0);
+            block.in_halo_ = true;
+            if (first > 0)
+                block.template nodes<&SolverKernels::sheet_springs>({}, first - halo < 0 ? 0 : first - halo,
+                                                                    first);
+            block.in_halo_ = false;
+            block.template nodes<&SolverKernels::sheet_springs>(sum_slots_of(Pass::sheet_springs), first,
+                                                                last);
+            block.template nodes<&SolverKernels::sheet_gather>(sum_slots_of(Pass::sheet_gather), first, last);
+        }
+    }
+
+    template <auto kernel>
+    void nodes(Pass pass, int begin, int end)
+    {
+        nodes<kernel>(sum_slots_of(pass), begin, end);
+    }
+    template <auto kernel>
+    void nodes(SumSlots slots, int begin, int end)
+    {
+        SolverKernels self = *this;  // whose address nobody else knows
+        const int per_row = (level.columns + segment_columns - 1) / segment_columns;
+        for (int segment = begin; segment < end; ++segment) {
+            const int row = segment / per_row, first = segment % per_row * segment_columns;
+            const int last =
+                first + segment_columns < level.columns ? first + segment_columns : level.columns;
+            self.sums[0] = self.sums[1] = spread(Number(0));
+            for (int column = first; column < last; column += Lanes<T>::count)
+                (self.*kernel)(level_offset(row, column));
+            for (unsigned k = 0; k < slots.count; ++k)
+                context.parts[int(slots.first + k) * context.part_stride + segment] =
+                    Lanes<T>::sum(self.sums[k]);
+        }
+    }
+    template <auto kernel>
+    void cells(int begin, int end, int rows, int columns)
+    {
+        SolverKernels self = *this;
+        for (int row = begin; row < end && row < rows; ++row)
+            for (int column = 0; column < columns; column += Lanes<T>::count) {
+                self.inside_ = Lanes<T>::first_lanes(level.columns - column);
+                (self.*kernel)(level_offset(row, column), finer_offset(2 * row, 2 * column));
+            }
+    }
+
+    Number *base_, *finer_base_, *spring_base_;
+    Distance size_, finer_size_, spring_size_;
+    bool in_halo_ = false;
+    mask inside_{};
+    unsigned detail_;
+    bool is_cloth_, finer_is_cloth_;
+};
+
+}  // namespace pliant

@@ -1,0 +1,228 @@
+#include "backend/host/solver_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "backend/host/solver_kernels.hpp"
+#include "kernels/planes.hpp"
+
+namespace pliant {
+
+template <class T>
+SolverConstants<T> make_solver_constants(const ClothModel& model, double step_length)
+{
+    const auto number = [](double a) { return static_cast<T>(a); };
+    const StepConstants<T> step(model, step_length);
+    SolverConstants<T> c;
+    c.dt = step.dt;
+    c.inverse_dt = number(step_length > 0 ? 1 / step_length : 0);
+    c.decay = step.decay;
+    c.thickness = step.thickness;
+    c.gravity = step.gravity;
+    for (std::size_t k = 0; k < spring_class_count; ++k) {
+        const LimitedSprings& springs = model.limited[k];
+        const double damping = springs.exists ? model.parameters.spring_damping[k] : 0;
+        c.has[k] = springs.exists;
+        c.has_damping |= damping > 0;
+        c.curves[k] = {number(springs.below), number(springs.limit), number(springs.beyond),
+                       number(springs.compressed), number(step_length > 0 ? damping / step_length : 0)};
+    }
+    c.exact_bend =
+        model.method == Method::constraint && model.limited[2].exists && model.limited[2].beyond > 0;
+    if (model.method == Method::acad && !model.acad_implicit) {
+        const AcadOptions& acad = model.acad;
+        const bool to_rest = acad.target == AcadTarget::rest;
+        const double hold = acad.deactivate_at.value_or(acad.activate_at);
+        // A limit may act before the threshold is reached in this very step; a constraint to rest length must
+        // not.
+        const double near = to_rest ? acad.activate_at : 0.5 * acad.activate_at;
+        const auto above = [&](double stretch) { return number((1 + stretch) * (1 + stretch)); };
+        const auto below = [&](double stretch) {
+            return number(acad.compression ? (1 - stretch) * (1 - stretch) : 0);
+        };
+        c.is_acad = true;
+        c.acad_has_memory = to_rest && hold < acad.activate_at;
+        c.acad_above2 = above(acad.activate_at);
+        c.acad_below2 = below(acad.activate_at);
+        c.acad_held_above2 = above(hold);
+        c.acad_held_below2 = below(hold);
+        c.acad_near_above2 = above(near);
+        c.acad_near_below2 = below(near);
+        c.has_damping = false;  // springs have damped in their own step
+    }
+    std::copy(std::begin(step.rest_lengths), std::end(step.rest_lengths), c.rest_lengths);
+    const NewtonMultigridOptions& newton = model.newton;
+    c.contact_stiffness = number(newton.contact_stiffness);
+    c.slip = number(newton.friction_speed * step_length);
+    c.linear_tolerance = number(newton.linear_tolerance);
+    c.newton_tolerance = number(newton.newton_tolerance);
+    // Chebyshev's points on the upper part of the spectrum of D^-1 A, which the smoother has to take care of.
+    constexpr double greatest = 2.5, least = greatest / 4;
+    for (std::uint32_t k = 0; k < newton.smoothing; ++k)
+        c.relaxations[k] = number(
+            1 / (0.5 * (greatest + least) +
+                 0.5 * (greatest - least) * std::cos(std::numbers::pi * (k + 0.5) / newton.smoothing)));
+    return c;
+}
+
+template <class T>
+void set_first_numbers(const ClothModel& model, const Hierarchy& hierarchy, T* arena)
+{
+    if (hierarchy.empty()) return;
+    const ConstraintRows& rows = hierarchy.constraints;
+    std::transform(rows.numbers.begin(), rows.numbers.end(), arena + rows.first_number,
+                   [](double a) { return static_cast<T>(a); });
+    if (model.solver == Solver::paper) return;
+    const SolverLevel& cloth = hierarchy.levels.front();
+    std::transform(hierarchy.rest_lengths.begin(), hierarchy.rest_lengths.end(),
+                   arena + cloth.edge_base + edge_rest * cloth.edge_size,
+                   [](double a) { return static_cast<T>(a); });
+    const auto at = [&](int plane, std::int32_t o) -> T& {
+        return arena[static_cast<std::size_t>(cloth.base + plane * cloth.size + o)];
+    };
+    if (model.is_sheet())
+        for_each_sheet_spring(*model.sheet, [&](std::uint32_t i, std::uint32_t, const SheetNeighbour& n) {
+            // The numbers of the forward neighbours in kernels/sheet.kernel.glsl.
+            const int k = n.column_offset == 2 ? 4
+                          : n.row_offset == 2  ? 5
+                          : n.row_offset == 0  ? 0
+                                               : n.column_offset + 2;
+            at(plane_scale + k, Hierarchy::offset(cloth, static_cast<std::int32_t>(i / model.sheet->columns),
+                                                  static_cast<std::int32_t>(i % model.sheet->columns))) =
+                T(1);
+        });
+}
+
+template <class T>
+SolverState<T>::SolverState(const ClothModel& model, const Hierarchy& hierarchy)
+    : hierarchy_(&hierarchy), arena_(hierarchy.number_count), scalars_(solver_scalar_count)
+{
+    if (hierarchy.empty()) return;
+    set_first_numbers(model, hierarchy, arena_.data());
+    const SolverLevel& cloth = hierarchy.levels.front();
+    Call whole{Pass::step_begin};
+    const std::size_t segments =
+        std::max({size_of(whole), size_of({Pass::paper_springs}), size_of({Pass::mesh_springs})});
+    part_stride_ = static_cast<int>(segments);
+    parts_.assign(segments * sum_slot_count, T(0));
+    part_counts_.assign(sum_slot_count, static_cast<int>(size_of(whole)));
+    if (model.solver == Solver::paper)
+        for (const Pass pass : {Pass::paper_springs, Pass::paper_apply, Pass::paper_update})
+            for (std::uint32_t k = 0; k < sum_slots_of(pass).count; ++k)
+                part_counts_[sum_slots_of(pass).first + k] = static_cast<int>(size_of({pass}));
+    else if (!model.is_sheet())
+        part_counts_[sum_slots_of(Pass::mesh_springs).first] =
+            static_cast<int>(size_of({Pass::mesh_springs}));
+    const NodeLayout layout(static_cast<std::size_t>(cloth.rows), static_cast<std::size_t>(cloth.columns));
+    mass_ = AlignedArray<T>(layout.size);
+    for (std::size_t i = 0; i < model.node_count(); ++i)
+        mass_[layout.offset(i)] = static_cast<T>(model.masses[i]);
+}
+
+template <class T>
+std::size_t SolverState<T>::size_of(const Call& call) const
+{
+    const SolverLevel& level = hierarchy_->levels[call.level];
+    switch (description_of(call.pass).size) {
+        case PassSize::cell: return static_cast<std::size_t>(level.rows);
+        case PassSize::single: return 1;
+        case PassSize::row: return (row_count(call) + segment_columns - 1) / segment_columns;
+        case PassSize::edge:
+            return static_cast<std::size_t>((level.edges + segment_columns - 1) / segment_columns);
+        case PassSize::finer: {
+            const SolverLevel& finer = hierarchy_->levels[call.level - 1];
+            return static_cast<std::size_t>((finer.columns + segment_columns - 1) / segment_columns);
+        }
+        case PassSize::scan: return hierarchy_->constraints.scan_blocks(call.detail);
+        default: break;
+    }
+    return static_cast<std::size_t>(level.rows) *
+           static_cast<std::size_t>((level.columns + segment_columns - 1) / segment_columns);
+}
+
+template <class T>
+std::size_t SolverState<T>::row_count(const Call& call) const
+{
+    return call.pass == Pass::paper_springs ? hierarchy_->constraints.springs
+                                            : hierarchy_->constraints.constraints;
+}
+
+template <class T>
+std::size_t SolverState<T>::weight_of(const Call& call) const
+{
+    if (description_of(call.pass).size == PassSize::row)
+        return std::min<std::size_t>(row_count(call), segment_columns);
+    if (description_of(call.pass).size == PassSize::scan) return block_size;
+    if (is_mesh_pass(call.pass)) return segment_columns;
+    return static_cast<std::size_t>(std::min(hierarchy_->levels[call.level].columns, segment_columns));
+}
+
+template <class T>
+const SolverContext<T>& SolverState<T>::context(const Call& call, PlainCloth<T>& cloth,
+                                                const SolverConstants<T>& constants,
+                                                std::span<const typename Laws<T>::Collider> colliders)
+{
+    const auto pointers = [](Planes<T>& a) { return NumberPlanes<T>{a.x.data(), a.y.data(), a.z.data()}; };
+    SolverContext<T>& c = context_;
+    c.arena = arena_.data();
+    c.levels = hierarchy_->levels.data();
+    c.topology = hierarchy_->topology.data();
+    c.scalars = scalars_.data();
+    c.parts = parts_.data();
+    c.part_stride = part_stride_;
+    c.part_counts = part_counts_.data();
+    c.bottom_base = hierarchy_->bottom_base;
+    c.border_rows = NodeLayout::border_rows;
+    c.pad = NodeLayout::pad;
+    c.position = pointers(cloth.position[call.parity]);
+    c.velocity = pointers(cloth.velocity[call.parity]);
+    c.next_position = pointers(cloth.position[1 - call.parity]);
+    c.next_velocity = pointers(cloth.velocity[1 - call.parity]);
+    c.external_force = pointers(cloth.external_force);
+    c.multiplier = cloth.multiplier.data();
+    c.inverse_mass = cloth.inverse_mass.data();
+    c.mass = mass_.data();
+    c.constants = &constants;
+    c.colliders = colliders.data();
+    c.collider_count = static_cast<int>(colliders.size());
+    return c;
+}
+
+template <class T>
+T* SolverState<T>::window(std::size_t part)
+{
+    const auto planes = static_cast<std::size_t>(sheet_planes - plane_spring);
+    return windows_.data() +
+           part * planes * static_cast<std::size_t>(window_size(hierarchy_->levels.front().stride));
+}
+
+template <class T>
+void SolverState<T>::reserve_windows(std::size_t parts)
+{
+    if (parts <= window_count_) return;
+    window_count_ = parts;
+    const auto planes = static_cast<std::size_t>(sheet_planes - plane_spring);
+    windows_ = AlignedArray<T>(parts * planes *
+                               static_cast<std::size_t>(window_size(hierarchy_->levels.front().stride)));
+}
+
+template <class T>
+void SolverState<T>::run(const Call& call, const SolverContext<T>& context, std::size_t begin,
+                         std::size_t end) const
+{
+    SolverKernels<T> kernels(context, call);
+    if (description_of(call.pass).size == PassSize::single)
+        kernels.run_single(call.pass);
+    else
+        kernels.run(call.pass, static_cast<int>(begin), static_cast<int>(end));
+}
+
+template class SolverState<double>;
+template class SolverState<float>;
+template void set_first_numbers<double>(const ClothModel&, const Hierarchy&, double*);
+template void set_first_numbers<float>(const ClothModel&, const Hierarchy&, float*);
+template SolverConstants<double> make_solver_constants<double>(const ClothModel&, double);
+template SolverConstants<float> make_solver_constants<float>(const ClothModel&, double);
+
+}  // namespace pliant

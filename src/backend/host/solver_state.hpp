@@ -1,0 +1,74 @@
+// One cloth's constraint solver on the host: its numbers, and its passes over parts of them.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "backend/host/plain_cloth.hpp"
+#include "backend/host/solver_context.hpp"
+#include "body/hierarchy.hpp"
+
+namespace pliant {
+
+/// Constants of a step in the numbers of a kernel.
+template <class T>
+SolverConstants<T> make_solver_constants(const ClothModel& model, double step_length);
+
+/// What an arena of zeros holds before the first step: the numbers that come from the topology alone.
+template <class T>
+void set_first_numbers(const ClothModel& model, const Hierarchy& hierarchy, T* arena);
+
+template <class T>
+class SolverState {
+public:
+    /// `hierarchy` must outlive it; empty, and there is no solver.
+    SolverState(const ClothModel& model, const Hierarchy& hierarchy);
+
+    /// Whether a call is to be skipped.
+    bool skips(const Call& call) const
+    {
+        return call.guard != Guard::none && scalars_[static_cast<std::size_t>(call.guard)] != T(0);
+    }
+    /// Rows or segments that a call works on.
+    std::size_t size_of(const Call& call) const;
+    /// Nodes in one of them, for the decision how many threads are worth it.
+    std::size_t weight_of(const Call& call) const;
+    /// What a call's kernels need; valid until the next call of it.
+    const SolverContext<T>& context(const Call& call, PlainCloth<T>& cloth,
+                                    const SolverConstants<T>& constants,
+                                    std::span<const typename Laws<T>::Collider> colliders);
+    /// Runs a pass that has one invocation, and by the scalar kernels a part of any other.
+    void run(const Call& call, const SolverContext<T>& context, std::size_t begin, std::size_t end) const;
+
+    /// Whether sheet_springs and sheet_gather may run as one: a row fits a segment, and nobody else reads
+    /// what springs have written.
+    bool evaluates_in_windows(const SolverConstants<T>& constants) const
+    {
+        return hierarchy_->levels.front().columns <= segment_columns && !constants.exact_bend;
+    }
+    /// The window of a part.
+    T* window(std::size_t part);
+    void reserve_windows(std::size_t parts);
+
+    std::span<const T> scalars() const { return scalars_; }
+    std::span<const T> arena() const { return {arena_.data(), hierarchy_->number_count}; }
+    const Hierarchy& hierarchy() const { return *hierarchy_; }
+
+private:
+    /// Springs that a pass of the solver paper may have to do with.
+    std::size_t row_count(const Call& call) const;
+
+    const Hierarchy* hierarchy_;
+    AlignedArray<T> arena_;
+    std::vector<T> scalars_, parts_;
+    std::vector<int> part_counts_;
+    int part_stride_ = 0;
+    AlignedArray<T> mass_, windows_;
+    std::size_t window_count_ = 0;
+    SolverContext<T> context_;
+};
+
+extern template class SolverState<double>;
+extern template class SolverState<float>;
+
+}  // namespace pliant

@@ -1,0 +1,5 @@
+#version 460
+// Its end.
+#extension GL_GOOGLE_include_directive : require
+#include "solver_nodes.glsl"
+NODE_PASS(acad_end)

@@ -1,0 +1,5 @@
+#version 460
+// The start of conjugate gradients.
+#extension GL_GOOGLE_include_directive : require
+#include "solver_nodes.glsl"
+NODE_PASS(linear_begin)

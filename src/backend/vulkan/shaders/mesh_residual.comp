@@ -1,0 +1,6 @@
+#version 460
+// What a correction leaves on a mesh.
+#extension GL_GOOGLE_include_directive : require
+#include "solver_nodes.glsl"
+#include "kernels/mesh.kernel.glsl"
+NODE_PASS(mesh_residual)

@@ -1,0 +1,6 @@
+#version 460
+// The residual of a mesh's level, from that of the finer one, and its first correction.
+#extension GL_GOOGLE_include_directive : require
+#include "solver_nodes.glsl"
+#include "kernels/mesh.kernel.glsl"
+NODE_PASS(mesh_restrict)

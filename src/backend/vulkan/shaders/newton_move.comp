@@ -1,0 +1,5 @@
+#version 460
+// Newton's step, whole.
+#extension GL_GOOGLE_include_directive : require
+#include "solver_nodes.glsl"
+NODE_PASS(newton_move)

@@ -1,0 +1,5 @@
+#version 460
+// A part of Newton's step.
+#extension GL_GOOGLE_include_directive : require
+#include "solver_nodes.glsl"
+NODE_PASS(search_move)

@@ -1,0 +1,244 @@
+#ifndef SOLVER_GLSL
+#define SOLVER_GLSL
+// What the text of src/kernels calls, as GLSL: the twin of SolverKernels (backend/host/solver_kernels.hpp). All numbers
+// of a cloth's solver lie in one buffer, the arena; the levels of its hierarchy say where.
+#define POSITION_OUT_ACCESS  // a pinned node is found where it is going
+#include "colliders.glsl"
+#define KERNEL
+#define UNROLL  // drivers know when it pays; when told to, llvmpipe compiles for seconds
+#include "kernels/planes.kernel.glsl"
+
+// As body/hierarchy.hpp.
+struct SolverLevel
+{
+    int rows, columns, stride, base, size;
+    int edges, edge_base, edge_size, edge_ends, row_start, held_start;
+    int parents_start, children_start, diagonal_start, coupling_start;
+};
+
+// As SolverBlock of solver_buffers.cpp.
+layout(set = 0, binding = 18, std140) uniform Solver
+{
+    vec4 step_contact;       // s, 1/s, N/m (contact stiffness), m (slip)
+    vec4 curves[3];          // LimitCurve by class: below, limit, beyond, compressed
+    vec4 curve_damping;      // N/m by class
+    vec4 relaxations[2];
+    vec4 tolerances;         // of the linear solve, of Newton's method
+    vec4 acad_above_below;   // by length squared over rest length squared; z, w: of those held
+    vec4 acad_near;          // above, below; z: is it ACAD, w: does it remember
+    bool has_damping, exact_bend;
+    bvec4 has;               // classes of springs
+    int bottom_base, part_stride, padding_0, padding_1;
+    ivec4 part_counts[4];    // by slot
+    ivec4 levels[32 * 6];    // the numbers of SolverLevel, 24 for each
+} solver;
+
+layout(set = 0, binding = 5, std430) readonly buffer ExternalForce { vec4 external_force[]; };
+layout(set = 0, binding = 19, std430) buffer Arena { float arena[]; };
+layout(set = 0, binding = 20, std430) buffer Scalars { float scalars[]; };
+layout(set = 0, binding = 21, std430) buffer Parts { float parts[]; };
+layout(set = 0, binding = 22, std430) readonly buffer Topology { int topology_entries[]; };
+layout(set = 0, binding = 23, std430) writeonly buffer Multiplier { float multiplier[]; };  // N, by node
+
+SolverLevel level, finer;
+real sums[2] = real[2](0.0f, 0.0f);
+
+// The same for all invocations of a dispatch.
+bool is_skipped() { return push.guard != 32u && scalars[push.guard] != 0.0f; }
+SolverLevel level_at(uint k)
+{
+    ivec4 a = solver.levels[6u * k], b = solver.levels[6u * k + 1u], c = solver.levels[6u * k + 2u];
+    ivec4 d = solver.levels[6u * k + 3u];
+    return SolverLevel(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w, d.x, d.y, d.z);
+}
+void find_levels()
+{
+    level = level_at(push.level);
+    finer = level_at(push.level > 0u ? push.level - 1u : 0u);
+}
+
+real multiply_add(real a, real b, real c) { return fma(a, b, c); }
+#include "kernels/block.kernel.glsl"
+
+int at(int plane, int o) { return level.base + plane * level.size + o; }
+int finer_at(int plane, int o) { return finer.base + plane * finer.size + o; }
+real load(int plane, int o) { return arena[at(plane, o)]; }
+void store(int plane, int o, real a) { arena[at(plane, o)] = a; }
+vec3 load3(int plane, int o) { return vec3(load(plane, o), load(plane + 1, o), load(plane + 2, o)); }
+void store3(int plane, int o, vec3 a)
+{
+    store(plane, o, a.x);
+    store(plane + 1, o, a.y);
+    store(plane + 2, o, a.z);
+}
+Symmetric load6(int plane, int o)
+{
+    return Symmetric(load(plane, o), load(plane + 1, o), load(plane + 2, o), load(plane + 3, o), load(plane + 4, o),
+                     load(plane + 5, o));
+}
+void store6(int plane, int o, Symmetric a)
+{
+    store(plane, o, a.xx);
+    store(plane + 1, o, a.xy);
+    store(plane + 2, o, a.xz);
+    store(plane + 3, o, a.yy);
+    store(plane + 4, o, a.yz);
+    store(plane + 5, o, a.zz);
+}
+real finer_load(int plane, int o) { return arena[finer_at(plane, o)]; }
+vec3 finer_load3(int plane, int o)
+{
+    return vec3(finer_load(plane, o), finer_load(plane + 1, o), finer_load(plane + 2, o));
+}
+Symmetric finer_load6(int plane, int o)
+{
+    return Symmetric(finer_load(plane, o), finer_load(plane + 1, o), finer_load(plane + 2, o), finer_load(plane + 3, o),
+                     finer_load(plane + 4, o), finer_load(plane + 5, o));
+}
+void finer_add(int plane, int o, vec3 a)
+{
+    if (!(finer_load(plane_factor, o) > 0.0f)) return;
+    for (int k = 0; k < 3; ++k) arena[finer_at(plane + k, o)] += a[k];
+}
+void finer_add3(int plane, int o, vec3 even, vec3 odd)
+{
+    finer_add(plane, o, even);
+    finer_add(plane, o + 1, odd);
+}
+void finer_store3(int plane, int o, vec3 a)
+{
+    for (int k = 0; k < 3; ++k) arena[finer_at(plane + k, o)] = a[k];
+}
+int finer_coupling(int k)
+{
+    bool folded = push.level == 1u && solver.exact_bend && (k == 0 || k == 2);
+    return folded ? plane_fold + 3 * k : plane_block + 6 * k;
+}
+
+int source_plane() { return push.detail % 2u == 0u ? plane_z : plane_w; }
+int target_plane() { return push.detail % 2u == 0u ? plane_w : plane_z; }
+int finer_plane() { return push.detail / 2u % 2u == 0u ? plane_z : plane_w; }
+real relaxation() { return solver.relaxations[push.detail / 8u][push.detail / 2u % 4u]; }
+real scalar(int k) { return scalars[k]; }
+
+int sheet_class(int k) { return k >= 4 ? 2 : k % 2; }
+bool sheet_has(int k) { return solver.has[sheet_class(k)]; }
+LimitCurve class_curve(int k)
+{
+    vec4 c = solver.curves[k];
+    return LimitCurve(c.x, c.y, c.z, c.w, solver.curve_damping[k]);
+}
+LimitCurve sheet_curve(int k) { return class_curve(sheet_class(k)); }
+real sheet_rest(int k)
+{
+    return rest_length_of(k == 0 ? 0u : k == 2 ? 1u : k < 4 ? 2u : k == 4 ? 3u : 4u);
+}
+bool has_damping() { return solver.has_damping; }
+bool has_bend() { return solver.has[bend]; }
+bool exact_bend() { return push.level == 0u && solver.exact_bend && solver.has[bend]; }
+real contact_stiffness() { return solver.step_contact.z; }
+real slip() { return solver.step_contact.w; }
+real thickness() { return parameters.drag_lift_thickness.z; }
+real decay() { return parameters.gravity_direction.w; }
+real step_length() { return solver.step_contact.x; }
+real inverse_step() { return solver.step_contact.y; }
+vec3 gravity() { return parameters.gravity_dt.xyz; }
+real linear_tolerance() { return solver.tolerances.x; }
+real newton_tolerance() { return solver.tolerances.y; }
+
+bool is_first_look() { return push.level == 0u && push.detail == 1u; }
+bool is_acad() { return solver.acad_near.z != 0.0f; }
+bool acad_has_memory() { return solver.acad_near.w != 0.0f; }
+real acad_above2() { return solver.acad_above_below.x; }
+real acad_below2() { return solver.acad_above_below.y; }
+real acad_held_above2() { return solver.acad_above_below.z; }
+real acad_held_below2() { return solver.acad_above_below.w; }
+real acad_near_above2() { return solver.acad_near.x; }
+real acad_near_below2() { return solver.acad_near.y; }
+
+int collider_count() { return int(parameters.collider_count); }
+Collider collider(int k) { return collider_at(push.index, uint(k)); }
+
+// Rows and columns as NodeLayout (body/node_layout.hpp): two rows and 16 columns of padding before the first node.
+int level_offset(int row, int column) { return (row + 2) * level.stride + 16 + column; }
+int finer_offset(int row, int column) { return (row + 2) * finer.stride + 16 + column; }
+int node_at(int o) { return ((o - 16) / level.stride - 2) * level.columns + (o - 16) % level.stride; }
+vec3 node_position(int o) { return position_in[node_at(o)].xyz; }
+vec3 node_velocity(int o) { return velocity_in[node_at(o)].xyz; }
+// Beyond the border, where no spring reaches, any node will do.
+vec3 node_next_position(int o) { return position_out[min(uint(node_at(o)), parameters.node_count - 1u)].xyz; }
+vec3 node_next_velocity(int o) { return velocity_out[node_at(o)].xyz; }
+void set_multiplier(int o, real a) { multiplier[node_at(o)] = a; }
+vec3 node_force(int o) { return parameters.has_air != 0u ? external_force[node_at(o)].xyz : vec3(0.0f); }
+real node_inverse_mass(int o) { return position_in[node_at(o)].w; }
+real node_mass(int o) { return velocity_in[node_at(o)].w; }
+void node_end(int o, vec3 x, vec3 v)
+{
+    position_out[node_at(o)].xyz = x;  // beside them are the masses, in both copies
+    velocity_out[node_at(o)].xyz = v;
+}
+
+// No invocation works on padding here, nor on a node twice.
+mask inside_level() { return true; }
+bool in_halo() { return false; }
+
+// What lies by edge on a mesh, and by spring in the paper's solver.
+int topology(int k) { return topology_entries[k]; }
+real topology_weight(int k) { return intBitsToFloat(topology(k)); }
+real number(int k) { return arena[k]; }
+void set_number(int k, real a) { arena[k] = a; }
+int whole(real a) { return int(a); }
+int scan_level() { return int(push.detail); }
+int edge_at(int plane, int numbers, int e) { return level.edge_base + plane * level.edge_size + numbers * e; }
+real edge_load(int plane, int e) { return arena[edge_at(plane, 1, e)]; }
+void edge_store(int plane, int e, real a) { arena[edge_at(plane, 1, e)] = a; }
+vec3 edge_load3(int plane, int e)
+{
+    int p = edge_at(plane, 3, e);
+    return vec3(arena[p], arena[p + 1], arena[p + 2]);
+}
+void edge_store3(int plane, int e, vec3 a)
+{
+    int p = edge_at(plane, 3, e);
+    for (int k = 0; k < 3; ++k) arena[p + k] = a[k];
+}
+Symmetric six_numbers(int p)
+{
+    return Symmetric(arena[p], arena[p + 1], arena[p + 2], arena[p + 3], arena[p + 4], arena[p + 5]);
+}
+Symmetric edge_load6(int plane, int e) { return six_numbers(edge_at(plane, 6, e)); }
+Symmetric finer_edge_load6(int plane, int e) { return six_numbers(finer.edge_base + plane * finer.edge_size + 6 * e); }
+void edge_store6(int plane, int e, Symmetric a)
+{
+    int p = edge_at(plane, 6, e);
+    arena[p] = a.xx;
+    arena[p + 1] = a.xy;
+    arena[p + 2] = a.xz;
+    arena[p + 3] = a.yy;
+    arena[p + 4] = a.yz;
+    arena[p + 5] = a.zz;
+}
+
+// The dense operator of the last level.
+int bottom_nodes() { return level.rows * level.columns; }
+real bottom_get(int k) { return arena[solver.bottom_base + k]; }
+void bottom_set(int k, real a) { arena[solver.bottom_base + k] = a; }
+int bottom_at(int plane, int k)
+{
+    int node = k / 3;
+    return at(plane + k % 3, level_offset(node / level.columns, node % level.columns));
+}
+real bottom_vector(int plane, int k) { return arena[bottom_at(plane, k)]; }
+void bottom_set_vector(int plane, int k, real a) { arena[bottom_at(plane, k)] = a; }
+
+// Of single passes alone (solver_single.glsl).
+real total(int slot);
+void set_scalar(int k, real a);
+
+void bottom_assemble();
+#include "kernels/newton.kernel.glsl"
+#include "kernels/bottom.kernel.glsl"
+#include "kernels/sheet.kernel.glsl"
+#include "kernels/acad.kernel.glsl"
+#include "kernels/linear.kernel.glsl"
+#endif

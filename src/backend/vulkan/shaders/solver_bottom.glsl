@@ -1,0 +1,15 @@
+#ifndef SOLVER_BOTTOM_GLSL
+#define SOLVER_BOTTOM_GLSL
+// The dense operator of the last level, which one invocation works on.
+#include "solver.glsl"
+
+layout(local_size_x = 1) in;
+
+#define BOTTOM_PASS(kernel)          \
+    void main()                      \
+    {                                \
+        if (is_skipped()) return;    \
+        find_levels();               \
+        kernel();                    \
+    }
+#endif

@@ -1,0 +1,41 @@
+#ifndef SOLVER_SINGLE_GLSL
+#define SOLVER_SINGLE_GLSL
+// Passes of one invocation. Those of serial.kernel.glsl are run by a whole group, which adds up the parts of a sum
+// together; all of it runs the same text, and the first invocation alone writes.
+#include "solver.glsl"
+
+layout(local_size_x = 256) in;
+shared real group_sums[gl_WorkGroupSize.x];
+
+real total(int slot)
+{
+    int lane = int(gl_LocalInvocationIndex), first = slot * solver.part_stride;
+    int count = solver.part_counts[slot / 4][slot % 4];
+    real sum = 0.0f;
+    for (int k = lane; k < count; k += int(gl_WorkGroupSize.x)) sum += parts[first + k];
+    group_sums[lane] = sum;
+    for (int width = int(gl_WorkGroupSize.x) / 2; width > 0; width /= 2) {
+        barrier();
+        if (lane < width) group_sums[lane] += group_sums[lane + width];
+    }
+    barrier();
+    sum = group_sums[0];
+    barrier();  // the next total may begin
+    return sum;
+}
+void set_scalar(int k, real a)
+{
+    if (gl_LocalInvocationIndex == 0u) scalars[k] = a;
+}
+
+#include "kernels/serial.kernel.glsl"
+
+#define SINGLE_PASS(kernel)                                             \
+    void main()                                                         \
+    {                                                                   \
+        bool skipped = is_skipped();                                    \
+        barrier(); /* all have seen the guard before the first sets it */ \
+        if (skipped) return;                                            \
+        kernel();                                                       \
+    }
+#endif

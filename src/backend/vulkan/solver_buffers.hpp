@@ -1,0 +1,47 @@
+// The constraint solver of one cloth on the device.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "backend/vulkan/device.hpp"
+#include "body/cloth_model.hpp"
+#include "solve/pass.hpp"
+
+namespace pliant::vulkan {
+
+/// Work groups of a call in x and y.
+struct Groups {
+    std::uint64_t x = 0, y = 1;
+};
+
+/// Nothing is in it when the cloth's hierarchy is empty.
+class SolverBuffers {
+public:
+    /// Throws Error(device_failure) when the device has no buffer as large as the arena.
+    SolverBuffers(const Device& device, const ClothModel& model);
+
+    Groups groups_of(const Call& call) const;
+    void set_constants(double step_length);
+
+    const Buffer& constants() const { return constants_; }
+    const Buffer& arena() const { return arena_; }
+    const Buffer& scalars() const { return scalars_; }
+    const Buffer& parts() const { return parts_; }
+    const Buffer& topology() const { return topology_; }
+    const Buffer& multiplier() const { return multiplier_; }
+
+    /// Appends the copy of the scalars to where the host reads them.
+    void record_scalar_copy(const vk::raii::CommandBuffer& commands) const;
+    std::vector<double> scalar_values() const;
+
+private:
+    Groups groups_on(std::int32_t rows, std::int32_t columns) const;
+    std::vector<Pass> summing_passes() const;
+    std::size_t part_stride() const;
+
+    const ClothModel* model_;
+    Buffer constants_, arena_, scalars_, scalar_copy_, parts_, topology_, multiplier_;
+};
+
+}  // namespace pliant::vulkan

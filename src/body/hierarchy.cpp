@@ -1,0 +1,80 @@
+#include "body/hierarchy.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "body/cloth_model.hpp"
+#include "body/node_layout.hpp"
+#include "kernels/planes.hpp"
+#include "pliant/error.hpp"
+
+namespace pliant {
+
+Hierarchy::Hierarchy(const ClothModel& cloth)
+{
+    if (cloth.solver == Solver::paper) {
+        build_rows(cloth);
+        return;
+    }
+    if (cloth.is_sheet())
+        build_sheet(cloth);
+    else
+        build_mesh(cloth);
+    const std::size_t bottom = 3 * std::size_t(levels.back().rows) * std::size_t(levels.back().columns);
+    bottom_base = static_cast<std::int32_t>(number_count);
+    number_count += bottom * bottom;
+    if (number_count > 0x7fffffff)
+        throw Error(ErrorKind::bad_input,
+                    "a cloth of " + std::to_string(cloth.node_count()) +
+                        " nodes is too large for the constraint solver, which can "
+                        "number 2^31 values; use fewer nodes or the method mass_spring");
+}
+
+std::int32_t Hierarchy::offset(const SolverLevel& level, std::int32_t row, std::int32_t column)
+{
+    constexpr auto border = static_cast<std::int32_t>(NodeLayout::border_rows);
+    return (row + border) * level.stride + static_cast<std::int32_t>(NodeLayout::pad) + column;
+}
+
+SolverLevel Hierarchy::append_level(std::int32_t rows, std::int32_t columns, std::int32_t planes)
+{
+    const NodeLayout layout(static_cast<std::size_t>(rows), static_cast<std::size_t>(columns));
+    SolverLevel level;
+    level.rows = rows;
+    level.columns = columns;
+    level.stride = static_cast<std::int32_t>(layout.stride);
+    level.size =
+        static_cast<std::int32_t>((layout.size + NodeLayout::pad - 1) / NodeLayout::pad * NodeLayout::pad);
+    level.base = static_cast<std::int32_t>(number_count);
+    number_count += static_cast<std::size_t>(planes) * static_cast<std::size_t>(level.size);
+    levels.push_back(level);
+    return level;
+}
+
+/// Rows and columns are halved until few are left; a coarse node lies on every other fine one, and one beyond
+/// the last when their number is even.
+void Hierarchy::build_sheet(const ClothModel& cloth)
+{
+    constexpr std::int32_t few = 3;
+    auto rows = static_cast<std::int32_t>(cloth.sheet->rows),
+         columns = static_cast<std::int32_t>(cloth.sheet->columns);
+    append_level(rows, columns, sheet_planes);
+    do {
+        rows = rows / 2 + 1;
+        columns = columns / 2 + 1;
+        append_level(rows, columns, level_planes);
+    } while (rows > few || columns > few);
+}
+
+/// The paper's solver: the cloth alone, and patterns over its springs.
+void Hierarchy::build_rows(const ClothModel& cloth)
+{
+    const bool sheet = cloth.is_sheet();
+    append_level(sheet ? static_cast<std::int32_t>(cloth.sheet->rows) : 1,
+                 static_cast<std::int32_t>(sheet ? cloth.sheet->columns : cloth.node_count()), paper_planes);
+    constraints = ConstraintRows(cloth, number_count);
+    topology = std::move(constraints.topology);
+    number_count += constraints.number_count();
+}
+
+}  // namespace pliant

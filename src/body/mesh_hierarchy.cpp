@@ -1,0 +1,417 @@
+#include "body/mesh_hierarchy.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "body/node_layout.hpp"
+#include "kernels/planes.hpp"
+
+namespace pliant {
+namespace {
+
+/// A coupling counts for shape and smoothing of aggregates when it is at least this part of the strongest one
+/// at either of its ends.
+constexpr double strong_part = 0.1;
+
+constexpr std::uint32_t nowhere = ~0u;
+
+/// Rows from entries that name their row: keeps the order within a row.
+template <class Entry, class RowOf, class EntryOf, class Source>
+Ragged<Entry> rows_of(std::size_t row_count, const std::vector<Source>& sources, RowOf&& row_of,
+                      EntryOf&& entry_of)
+{
+    Ragged<Entry> rows;
+    rows.start.assign(row_count + 1, 0);
+    for (const Source& a : sources) ++rows.start[row_of(a) + 1];
+    for (std::size_t k = 0; k < row_count; ++k) rows.start[k + 1] += rows.start[k];
+    rows.entries.resize(sources.size());
+    std::vector<std::uint32_t> next(rows.start.begin(), rows.start.end() - 1);
+    for (const Source& a : sources) rows.entries[next[row_of(a)]++] = entry_of(a);
+    return rows;
+}
+
+struct StrongNeighbour {
+    std::uint32_t node = 0;
+    double weight = 0;
+};
+
+Ragged<StrongNeighbour> strong_neighbours(const MeshGraph& graph)
+{
+    std::vector<double> strongest(graph.node_count, 0.0);
+    for (const auto& c : graph.couplings)
+        for (const std::uint32_t node : {c.i, c.j}) strongest[node] = std::max(strongest[node], c.weight);
+    struct Side {
+        std::uint32_t node, other;
+        double weight;
+    };
+    std::vector<Side> sides;
+    for (const auto& c : graph.couplings) {
+        if (!(c.weight > 0) || c.weight < strong_part * std::min(strongest[c.i], strongest[c.j])) continue;
+        sides.push_back({c.i, c.j, c.weight});
+        sides.push_back({c.j, c.i, c.weight});
+    }
+    return rows_of<StrongNeighbour>(
+        graph.node_count, sides, [](const Side& s) { return s.node; },
+        [](const Side& s) {
+            return StrongNeighbour{s.other, s.weight};
+        });
+}
+
+/// The aggregate of each node, numbered in the order of their first members; `nowhere` for nodes without
+/// neighbours.
+struct Aggregates {
+    std::uint32_t count = 0;
+    std::vector<std::uint32_t> of;
+};
+
+Aggregates aggregated(const Ragged<StrongNeighbour>& neighbours)
+{
+    const std::size_t node_count = neighbours.start.size() - 1;
+    Aggregates a;
+    a.of.assign(node_count, nowhere);
+    for (std::uint32_t i = 0; i < node_count; ++i) {
+        const auto row = neighbours.row(i);
+        const auto is_taken = [&](const StrongNeighbour& n) { return a.of[n.node] != nowhere; };
+        if (a.of[i] != nowhere || row.empty() || std::any_of(row.begin(), row.end(), is_taken)) continue;
+        a.of[i] = a.count;
+        for (const StrongNeighbour& n : row) a.of[n.node] = a.count;
+        ++a.count;
+    }
+    // What is left has a neighbour in an aggregate, or it would have become a root itself.
+    const std::vector<std::uint32_t> roots = a.of;
+    for (std::uint32_t i = 0; i < node_count; ++i) {
+        if (roots[i] != nowhere) continue;
+        double strongest = 0;
+        for (const StrongNeighbour& n : neighbours.row(i))
+            if (roots[n.node] != nowhere && n.weight > strongest) {
+                strongest = n.weight;
+                a.of[i] = roots[n.node];
+            }
+    }
+    return a;
+}
+
+/// The largest eigenvalue of D^-1 L, from below; L is the Laplacian of the strong couplings, D its diagonal.
+/// At most 2.
+double largest_eigenvalue(const Ragged<StrongNeighbour>& neighbours)
+{
+    const std::size_t count = neighbours.start.size() - 1;
+    std::vector<double> x(count), y(count);
+    std::uint32_t state = 1;
+    for (double& a : x) {
+        state = state * 1664525u + 1013904223u;
+        a = state / 4294967296.0 - 0.5;
+    }
+    double eigenvalue = 0;
+    constexpr int steps = 20;
+    for (int step = 0; step < steps; ++step) {
+        double before = 0, after = 0;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            double sum = 0, diagonal = 0;
+            for (const StrongNeighbour& n : neighbours.row(i)) {
+                sum += n.weight * (x[i] - x[n.node]);
+                diagonal += n.weight;
+            }
+            y[i] = diagonal > 0 ? sum / diagonal : 0;
+            before += diagonal * x[i] * x[i];
+            after += diagonal * y[i] * y[i];
+        }
+        if (!(after > 0)) break;
+        eigenvalue = std::sqrt(after / before);
+        const double scale = 1 / std::sqrt(after);
+        for (std::uint32_t i = 0; i < count; ++i) x[i] = y[i] * scale;
+    }
+    return eigenvalue;
+}
+
+/// P = (I - w D^-1 L) P0, where P0 is 1 for a node in its aggregate: rows sum up to 1, because those of L do
+/// to 0.
+Ragged<WeightedSource> parents_of(const Ragged<StrongNeighbour>& neighbours, const Aggregates& aggregates)
+{
+    const double eigenvalue = largest_eigenvalue(neighbours);
+    const double w = eigenvalue > 0 ? 4 / (3 * eigenvalue) : 0;
+    Ragged<WeightedSource> parents;
+    parents.start.push_back(0);
+    std::vector<std::pair<std::uint32_t, double>> row;
+    for (std::uint32_t i = 0; i < aggregates.of.size(); ++i) {
+        row.clear();
+        const std::uint32_t own = aggregates.of[i];
+        double total = 0;
+        for (const StrongNeighbour& n : neighbours.row(i)) total += n.weight;
+        for (const StrongNeighbour& n : neighbours.row(i)) {
+            const std::uint32_t other = aggregates.of[n.node];
+            if (other == own) continue;
+            const auto known =
+                std::find_if(row.begin(), row.end(), [&](const auto& e) { return e.first == other; });
+            if (known == row.end())
+                row.emplace_back(other, w * n.weight / total);
+            else
+                known->second += w * n.weight / total;
+        }
+        if (own != nowhere) {
+            double rest = 1;
+            for (const auto& entry : row) rest -= static_cast<float>(entry.second);
+            row.emplace_back(own, rest);
+            std::sort(row.begin(), row.end());
+            for (const auto& [coarse, weight] : row)
+                parents.entries.push_back({coarse, static_cast<float>(weight)});
+        }
+        parents.start.push_back(static_cast<std::uint32_t>(parents.entries.size()));
+    }
+    return parents;
+}
+
+/// A part of the coarse operator: so much of a fine block goes into the block of coarse nodes i <= j.
+struct Share {
+    std::uint32_t i = 0, j = 0, source = 0;
+    double weight = 0;
+};
+
+/// What P makes of the energy of the fine level (Galerkin), written with differences as the energy itself is:
+///   D(I) = sum_e (P_iI - P_jI)^2 B_e + sum_i P_iI^2 s_i,   B(I, J) = -sum_e (P_iI - P_jI) (P_iJ - P_jJ) B_e
+///   - sum_i P_iI P_iJ s_i
+std::vector<Share> shares_of(const MeshGraph& fine, const Ragged<WeightedSource>& parents)
+{
+    std::vector<Share> shares;
+    const auto couplings = static_cast<std::uint32_t>(fine.couplings.size());
+    std::vector<std::pair<std::uint32_t, double>> change;
+    const auto add = [&](std::uint32_t source) {
+        for (std::size_t a = 0; a < change.size(); ++a)
+            for (std::size_t b = a; b < change.size(); ++b) {
+                const double weight = change[a].second * change[b].second;
+                shares.push_back({change[a].first, change[b].first, source, a == b ? weight : -weight});
+            }
+    };
+    for (std::uint32_t e = 0; e < couplings; ++e) {
+        const auto of_i = parents.row(fine.couplings[e].i), of_j = parents.row(fine.couplings[e].j);
+        change.clear();
+        for (std::size_t a = 0, b = 0; a < of_i.size() || b < of_j.size();) {
+            const std::uint32_t i = a < of_i.size() ? of_i[a].source : nowhere;
+            const std::uint32_t j = b < of_j.size() ? of_j[b].source : nowhere;
+            double difference = 0;
+            if (i <= j) difference += of_i[a++].weight;
+            if (j <= i) difference -= of_j[b++].weight;
+            if (difference != 0) change.emplace_back(std::min(i, j), difference);
+        }
+        add(e);
+    }
+    for (std::uint32_t i = 0; i < fine.node_count; ++i) {
+        change.clear();
+        for (const WeightedSource& p : parents.row(i)) change.emplace_back(p.source, p.weight);
+        add(couplings + i);
+    }
+    return shares;
+}
+
+}  // namespace
+
+CoarseMesh coarser(const MeshGraph& fine)
+{
+    CoarseMesh coarse;
+    const Ragged<StrongNeighbour> neighbours = strong_neighbours(fine);
+    const Aggregates aggregates = aggregated(neighbours);
+    MeshGraph& graph = coarse.graph;
+    graph.node_count = aggregates.count;
+    coarse.parents = parents_of(neighbours, aggregates);
+
+    std::vector<Share> all;
+    for (std::uint32_t i = 0; i < fine.node_count; ++i)
+        for (const WeightedSource& p : coarse.parents.row(i))
+            all.push_back({p.source, p.source, i, p.weight});
+    const auto row_of = [](const Share& s) { return s.i; };
+    const auto entry_of = [](const Share& s) {
+        return WeightedSource{s.source, static_cast<float>(s.weight)};
+    };
+    coarse.children = rows_of<WeightedSource>(aggregates.count, all, row_of, entry_of);
+
+    all = shares_of(fine, coarse.parents);
+    const auto middle =
+        std::stable_partition(all.begin(), all.end(), [](const Share& s) { return s.i == s.j; });
+    std::vector<Share> pairs(middle, all.end());
+    all.erase(middle, all.end());
+    coarse.diagonal = rows_of<WeightedSource>(aggregates.count, all, row_of, entry_of);
+
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [](const Share& a, const Share& b) { return a.i != b.i ? a.i < b.i : a.j < b.j; });
+    coarse.couplings.start.push_back(0);
+    for (std::size_t k = 0; k < pairs.size();) {
+        MeshGraph::Coupling coupling{pairs[k].i, pairs[k].j, 0};
+        for (; k < pairs.size() && pairs[k].i == coupling.i && pairs[k].j == coupling.j; ++k) {
+            if (pairs[k].source < fine.couplings.size())
+                coupling.weight += pairs[k].weight * fine.couplings[pairs[k].source].weight;
+            coarse.couplings.entries.push_back(entry_of(pairs[k]));
+        }
+        graph.couplings.push_back(coupling);
+        coarse.couplings.start.push_back(static_cast<std::uint32_t>(coarse.couplings.entries.size()));
+    }
+    return coarse;
+}
+
+namespace {
+
+/// Springs of a mesh as the solver numbers them: those between nodes that move first, then those that hold
+/// one to a pinned node. Springs of a class that does nothing, or between pinned nodes, are left out.
+struct SolverSprings {
+    std::vector<Spring> springs;
+    std::size_t coupling_count = 0;
+};
+
+SolverSprings solver_springs(const ClothModel& cloth)
+{
+    SolverSprings list;
+    const auto is_free = [&](std::uint32_t i) { return cloth.inverse_masses[i] > 0; };
+    const auto exists = [&](const Spring& s) {
+        return cloth.limited[static_cast<std::size_t>(s.spring_class)].exists;
+    };
+    for (const Spring& s : cloth.springs)
+        if (exists(s) && is_free(s.i) && is_free(s.j)) list.springs.push_back(s);
+    list.coupling_count = list.springs.size();
+    for (const Spring& s : cloth.springs)
+        if (exists(s) && is_free(s.i) != is_free(s.j)) list.springs.push_back(s);
+    return list;
+}
+
+/// Appends tables of integers that kernels read.
+class TopologyWriter {
+public:
+    explicit TopologyWriter(std::vector<std::int32_t>& topology) : topology_(topology) {}
+
+    std::int32_t position() const { return static_cast<std::int32_t>(topology_.size()); }
+    void add(std::int32_t a) { topology_.push_back(a); }
+
+    /// Starts of rows, as places in `topology`, and then the rows, of pairs: returns where the starts lie.
+    template <class Entry, class WriteEntry>
+    std::int32_t add_rows(const Ragged<Entry>& rows, WriteEntry&& write_entry)
+    {
+        const std::int32_t where = position();
+        const std::int32_t first = where + static_cast<std::int32_t>(rows.start.size());
+        for (const std::uint32_t start : rows.start) add(first + 2 * static_cast<std::int32_t>(start));
+        for (const Entry& entry : rows.entries) write_entry(entry);
+        return where;
+    }
+    std::int32_t add_weighted(const Ragged<WeightedSource>& rows, std::int32_t offset)
+    {
+        return add_rows(rows, [&](const WeightedSource& a) {
+            add(offset + static_cast<std::int32_t>(a.source));
+            add(std::bit_cast<std::int32_t>(a.weight));
+        });
+    }
+
+private:
+    std::vector<std::int32_t>& topology_;
+};
+
+}  // namespace
+
+SolverLevel& Hierarchy::append_mesh_level(std::int32_t nodes, std::int32_t edges,
+                                          std::int32_t node_planes_count, std::int32_t edge_planes_count)
+{
+    const auto whole = [](std::int32_t a) {
+        constexpr auto pad = static_cast<std::int32_t>(NodeLayout::pad);
+        return (a + pad - 1) / pad * pad;
+    };
+    SolverLevel level;
+    level.rows = 1;
+    level.columns = std::max(nodes, 1);
+    level.stride = static_cast<std::int32_t>(NodeLayout(1, static_cast<std::size_t>(level.columns)).stride);
+    // Offsets are those of NodeLayout, but a row that has no neighbours needs no border: planes overlap
+    // there.
+    const std::int32_t border = static_cast<std::int32_t>(NodeLayout::border_rows) * level.stride;
+    level.size = level.stride + static_cast<std::int32_t>(NodeLayout::pad);
+    number_count = std::max(number_count, static_cast<std::size_t>(border));
+    level.base = static_cast<std::int32_t>(number_count) - border;
+    number_count += static_cast<std::size_t>(node_planes_count) * static_cast<std::size_t>(level.size);
+    level.edges = edges;
+    level.edge_base = static_cast<std::int32_t>(number_count);
+    level.edge_size = whole(edges + level.columns);
+    number_count += static_cast<std::size_t>(edge_planes_count) * static_cast<std::size_t>(level.edge_size);
+    levels.push_back(level);
+    return levels.back();
+}
+
+/// Aggregates until few nodes are left. Every level at least halves the nodes that are coupled to others, so
+/// that there is an end to it.
+void Hierarchy::build_mesh(const ClothModel& cloth)
+{
+    constexpr std::uint32_t few = 12;
+    TopologyWriter writer(topology);
+
+    struct Side {
+        std::uint32_t node, other, edge;
+    };
+    /// Rows of (neighbour, edge) by node.
+    const auto add_sides = [&](const SolverLevel& level, const std::vector<Side>& sides) {
+        const auto rows = rows_of<Side>(
+            static_cast<std::size_t>(level.columns), sides, [](const Side& s) { return s.node; },
+            [](const Side& s) { return s; });
+        return writer.add_rows(rows, [&](const Side& s) {
+            writer.add(offset(level, 0, static_cast<std::int32_t>(s.other)));
+            writer.add(static_cast<std::int32_t>(s.edge));
+        });
+    };
+    const auto add_ends = [&](const SolverLevel& level, std::uint32_t i, std::uint32_t j) {
+        for (const std::uint32_t node : {i, j}) writer.add(offset(level, 0, static_cast<std::int32_t>(node)));
+    };
+
+    const SolverSprings list = solver_springs(cloth);
+    MeshGraph graph;
+    graph.node_count = cloth.node_count();
+    SolverLevel* level =
+        &append_mesh_level(static_cast<std::int32_t>(cloth.node_count()),
+                           static_cast<std::int32_t>(list.springs.size()), node_planes, edge_planes);
+    std::vector<Side> sides, held;
+    level->edge_ends = writer.position();
+    for (std::uint32_t e = 0; e < list.springs.size(); ++e) {
+        const Spring& s = list.springs[e];
+        add_ends(*level, s.i, s.j);
+        writer.add(static_cast<std::int32_t>(s.spring_class));
+        if (e < list.coupling_count) {
+            const LimitedSprings& limited = cloth.limited[static_cast<std::size_t>(s.spring_class)];
+            graph.couplings.push_back({s.i, s.j, std::max({limited.below, limited.beyond, 1e-9})});
+            sides.push_back({s.i, s.j, e});
+            sides.push_back({s.j, s.i, e});
+        } else {
+            held.push_back(cloth.inverse_masses[s.i] > 0 ? Side{s.i, s.j, e} : Side{s.j, s.i, e});
+        }
+    }
+    level->row_start = add_sides(*level, sides);
+    level->held_start = add_sides(*level, held);
+    rest_lengths.reserve(list.springs.size());
+    for (const Spring& s : list.springs) rest_lengths.push_back(static_cast<float>(s.rest_length));
+
+    do {
+        const CoarseMesh coarse = coarser(graph);
+        const SolverLevel finer = levels.back();
+        level = &append_mesh_level(static_cast<std::int32_t>(coarse.graph.node_count),
+                                   static_cast<std::int32_t>(coarse.graph.couplings.size()), level_planes,
+                                   edge_force);
+        // Held springs lie between the couplings and the row sums of the cloth.
+        const auto couplings = static_cast<std::uint32_t>(graph.couplings.size());
+        const auto add_blocks = [&](const Ragged<WeightedSource>& rows) {
+            return writer.add_rows(rows, [&](const WeightedSource& a) {
+                const bool is_node = a.source >= couplings;
+                writer.add(static_cast<std::int32_t>(is_node ? a.source - couplings : a.source) +
+                           (is_node ? finer.edges : 0));
+                writer.add(std::bit_cast<std::int32_t>(a.weight));
+            });
+        };
+        level->parents_start = writer.add_weighted(coarse.parents, offset(*level, 0, 0));
+        level->children_start = writer.add_weighted(coarse.children, offset(finer, 0, 0));
+        level->diagonal_start = add_blocks(coarse.diagonal);
+        level->coupling_start = add_blocks(coarse.couplings);
+        sides.clear();
+        level->edge_ends = writer.position();
+        for (std::uint32_t e = 0; e < coarse.graph.couplings.size(); ++e) {
+            const auto& c = coarse.graph.couplings[e];
+            add_ends(*level, c.i, c.j);
+            writer.add(0);
+            sides.push_back({c.i, c.j, e});
+            sides.push_back({c.j, c.i, e});
+        }
+        level->row_start = add_sides(*level, sides);
+        graph = coarse.graph;
+    } while (graph.node_count > few);
+}
+
+}  // namespace pliant

@@ -1,0 +1,68 @@
+// ACAD with the solver newton_multigrid: section 3.3 of the cloth paper, unilateral. A step is first made with springs
+// alone; where it leaves one stretched beyond the threshold, those that are near it become limits, and the step is made
+// good by the same minimisation that constraints are, from where the springs alone have led:
+//   E(t) = 1/2 |t - y|^2_{M / dt^2} + sum over the marked springs of their limits' energies,   y = x_springs - q
+// Without such a spring nothing but the test is run.
+
+// Whether a spring, by its length squared, is to be a constraint: `held`, when it was one in the step before.
+KERNEL mask is_overstretched(real length2, real rest, mask held)
+{
+    real rest2 = rest * rest;
+    real above = choose(held, acad_held_above2(), acad_above2()), below = choose(held, acad_held_below2(), acad_below2());
+    return length2 > choose(length2 < below * rest2, real(-1.0f), above * rest2);
+}
+
+// Near enough to the threshold that this step may take it there.
+KERNEL mask is_near_threshold(real length2, real rest, mask held)
+{
+    real rest2 = rest * rest;
+    real above = choose(held, acad_held_above2(), acad_near_above2());
+    real below = choose(held, acad_held_below2(), acad_near_below2());
+    return length2 > choose(length2 < below * rest2, real(-1.0f), above * rest2);
+}
+
+KERNEL void sheet_limits(int o)
+{
+    vec3 x = node_next_position(o);
+    for (int k = 0; k < 6; ++k) {
+        if (!sheet_has(k)) continue;
+        vec3 d = node_next_position(o + forward_offset(k)) - x;
+        mask held = load(plane_mark + k, o) > real(acad_has_memory() ? 0.0f : 2.0f);
+        mask there = load(plane_scale + k, o) > 0.0f;
+        sums[0] = sums[0] + choose(both(there, is_overstretched(dot3(d, d), sheet_rest(k), held)), real(1.0f), real(0.0f));
+    }
+}
+
+KERNEL void sheet_marks(int o)
+{
+    vec3 x = node_next_position(o);
+    for (int k = 0; k < 6; ++k) {
+        vec3 d = node_next_position(o + forward_offset(k)) - x;
+        mask held = load(plane_mark + k, o) > real(acad_has_memory() ? 0.0f : 2.0f);
+        mask near = both(load(plane_scale + k, o) > 0.0f, is_near_threshold(dot3(d, d), sheet_rest(k), held));
+        store(plane_mark + k, o, choose(near, real(1.0f), real(0.0f)));
+    }
+}
+
+// Where the springs alone have led is both the start and the aim of the minimisation. Friction has had its say there.
+KERNEL void acad_begin(int o)
+{
+    vec3 q = node_position(o), ahead = node_next_position(o) - q;
+    real mass = choose(node_inverse_mass(o) > 0.0f, node_mass(o) * inverse_step() * inverse_step(), real(0.0f));
+    store3(plane_q, o, q);
+    store3(plane_t, o, ahead);
+    store3(plane_y, o, ahead);
+    store(plane_mass, o, mass);
+    store(plane_grip, o, real(0.0f));
+    vec3 change = ahead - node_velocity(o) * step_length();
+    sums[0] = sums[0] + mass * dot3(change, change);
+}
+
+// v' = v_springs + (t - y) / dt
+KERNEL void acad_end(int o)
+{
+    vec3 t = load3(plane_t, o);
+    vec3 v = node_next_velocity(o) + (t - load3(plane_y, o)) * inverse_step();
+    v = choose(node_inverse_mass(o) > 0.0f, settled_velocity(v), node_next_velocity(o));
+    node_end(o, load3(plane_q, o) + t, v);
+}

@@ -1,0 +1,66 @@
+// Conjugate gradients on A x = r, and the smoother of its preconditioner: Chebyshev's iteration on D^-1 A as steps
+// of damped block Jacobi. Source: Saad, "Iterative Methods for Sparse Linear Systems", 2003, algorithms 9.1 and 12.1.
+
+KERNEL void linear_begin(int o)
+{
+    vec3 zero = vec3(real(0.0f), real(0.0f), real(0.0f));
+    vec3 r = load3(plane_r, o);
+    store3(plane_x, o, zero);
+    store3(plane_z, o, solved(load6(plane_factor, o), r) * relaxation());
+    sums[0] = sums[0] + dot3(r, r);
+}
+
+KERNEL void linear_direction(int o)
+{
+    real beta = scalar(scalar_beta);
+    vec3 w = load3(plane_w, o);
+    store3(plane_p, o, choose(beta > 0.0f, plus_scaled(w, load3(plane_p, o), beta), w));
+}
+
+KERNEL void linear_update(int o)
+{
+    real alpha = scalar(scalar_alpha);
+    store3(plane_x, o, plus_scaled(load3(plane_x, o), load3(plane_p, o), alpha));
+    vec3 r = plus_scaled(load3(plane_r, o), load3(plane_ap, o), real(0.0f) - alpha);
+    store3(plane_r, o, r);
+    store3(plane_z, o, solved(load6(plane_factor, o), r) * relaxation());
+    sums[0] = sums[0] + dot3(r, r);
+}
+
+// Preconditioners to compare with: the diagonal blocks alone, and none.
+KERNEL void linear_jacobi(int o)
+{
+    vec3 r = load3(plane_r, o);
+    vec3 w = solved(load6(plane_factor, o), r);
+    store3(plane_w, o, w);
+    sums[0] = sums[0] + dot3(r, w);
+}
+KERNEL void linear_plain(int o)
+{
+    vec3 r = load3(plane_r, o);
+    store3(plane_w, o, r);
+    sums[0] = sums[0] + dot3(r, r);
+}
+
+KERNEL void linear_apply(int o)
+{
+    vec3 p = load3(plane_p, o);
+    vec3 ap = row_product(plane_p, o);
+    store3(plane_ap, o, ap);
+    sums[0] = sums[0] + dot3(p, ap);
+}
+
+// source and target: plane_z or plane_w
+KERNEL void level_smooth(int o)
+{
+    vec3 r = load3(plane_r, o);
+    vec3 rest = r - row_product(source_plane(), o);
+    vec3 z = plus_scaled(load3(source_plane(), o), solved(load6(plane_factor, o), rest), relaxation());
+    store3(target_plane(), o, z);
+    sums[0] = sums[0] + dot3(r, z);
+}
+
+KERNEL void level_residual(int o)
+{
+    store3(plane_s, o, load3(plane_r, o) - row_product(source_plane(), o));
+}

@@ -1,0 +1,231 @@
+// The solver on meshes: smoothed aggregation. What belongs to springs, and to the couplings of coarser levels, lies by
+// edge; who belongs to whom is said by the integers of `topology`: tables of starts, and rows of pairs. Weights there
+// are the bits of a float. Operators have the form that they have on sheets,
+//   (A x)_i = s_i x_i + sum_e B_e (x_i - x_j),
+// and the blocks of a level are numbered through: its couplings B, then its row sums s.
+// Sources: body/mesh_hierarchy.hpp; kernels/sheet.kernel.glsl.
+
+KERNEL int mesh_node(int o)
+{
+    return o - level_offset(0, 0);
+}
+
+KERNEL void mesh_springs(int e)
+{
+    int ends = level.edge_ends + 3 * e;
+    int i = topology(ends), j = topology(ends + 1);
+    vec3 start = load3(plane_q, j) - load3(plane_q, i);
+    vec3 d = start + (load3(plane_t, j) - load3(plane_t, i));
+    real length2 = dot3(d, d);
+    real inverse_length = inverse_sqrt(length2);
+    vec3 n = d * inverse_length;
+    LimitCurve curve = class_curve(topology(ends + 2));
+    SpringState state = limited_spring(curve, length2, inverse_length, edge_load(edge_rest, e));
+    vec3 force = n * state.force;
+    Symmetric block = symmetric_about(n, state.along, state.across);
+    real energy = state.energy;
+    if (has_damping()) {
+        vec3 n0 = start * inverse_sqrt(dot3(start, start));
+        real along = dot3(d - start, n0);
+        force = force + n0 * (curve.damping * along);
+        block = plus(block, symmetric_about(n0, curve.damping, real(0.0f)));
+        energy = energy + 0.5f * curve.damping * along * along;
+    }
+    if (is_acad()) {
+        real mark = edge_load(edge_mark, e);
+        force = force * mark;
+        block = plus_scaled(symmetric_diagonal(real(0.0f)), block, mark);
+        energy = energy * mark;
+    }
+    edge_store3(edge_force, e, force);
+    edge_store6(edge_block, e, block);
+    edge_store(edge_taut, e, choose(magnitude(state.multiplier) > 0.0f, real(1.0f), real(0.0f)));
+    sums[0] = sums[0] + energy;
+}
+
+// Forces and the operator of a node from its springs. A spring to a pinned node is a support of this one. A taut spring
+// is counted at the lower of its nodes that move.
+KERNEL void mesh_gather(int o)
+{
+    int node = mesh_node(o);
+    vec3 q = load3(plane_q, o), t = load3(plane_t, o);
+    real mass = load(plane_mass, o);
+    mask is_free = mass > 0.0f;
+    vec3 ahead = t - load3(plane_y, o);
+    vec3 r = ahead * (real(0.0f) - mass);
+    Contact contact = contact_at(o, q, t);
+    r = r + contact.force;
+    Symmetric row_sum = plus(symmetric_diagonal(mass), contact.stiffness);
+    real taut = real(0.0f);
+    for (int k = topology(level.held_start + node); k < topology(level.held_start + node + 1); k += 2) {
+        int e = topology(k + 1);
+        r = plus_scaled(r, edge_load3(edge_force, e), real(topology(k) > o ? 1.0f : -1.0f));
+        row_sum = plus(row_sum, edge_load6(edge_block, e));
+        taut = taut + edge_load(edge_taut, e);
+    }
+    Symmetric diagonal = row_sum;
+    for (int k = topology(level.row_start + node); k < topology(level.row_start + node + 1); k += 2) {
+        int e = topology(k + 1);
+        bool ahead_of = topology(k) > o;
+        r = plus_scaled(r, edge_load3(edge_force, e), real(ahead_of ? 1.0f : -1.0f));
+        diagonal = plus(diagonal, edge_load6(edge_block, e));
+        if (ahead_of) taut = taut + edge_load(edge_taut, e);
+    }
+    store(plane_active, o, taut);
+    edge_store6(edge_block, level.edges + node, where_else_zero(is_free, row_sum));
+    store6(plane_factor, o, where_else_zero(is_free, factored(diagonal, mass)));
+    store3(plane_r, o, choose(is_free, r, vec3(real(0.0f), real(0.0f), real(0.0f))));
+    sums[0] = sums[0] + 0.5f * mass * dot3(ahead, ahead);
+    sums[1] = sums[1] + choose(is_free, contact.energy, real(0.0f));
+}
+
+// (A x) of a node; vectors are 0 at pinned nodes, which have no couplings.
+KERNEL vec3 mesh_row_product(int x, int o)
+{
+    int node = mesh_node(o);
+    vec3 own = load3(x, o);
+    vec3 zero = vec3(real(0.0f), real(0.0f), real(0.0f));
+    vec3 y = plus_product(zero, edge_load6(edge_block, level.edges + node), own);
+    int end = topology(level.row_start + node + 1);
+    for (int k = topology(level.row_start + node); k < end; k += 2)
+        y = plus_product(y, edge_load6(edge_block, topology(k + 1)), own - load3(x, topology(k)));
+    return y;
+}
+
+KERNEL void mesh_apply(int o)
+{
+    vec3 p = load3(plane_p, o);
+    vec3 ap = mesh_row_product(plane_p, o);
+    store3(plane_ap, o, ap);
+    sums[0] = sums[0] + dot3(p, ap);
+}
+
+KERNEL void mesh_smooth(int o)
+{
+    vec3 r = load3(plane_r, o);
+    vec3 rest = r - mesh_row_product(source_plane(), o);
+    vec3 z = plus_scaled(load3(source_plane(), o), solved(load6(plane_factor, o), rest), relaxation());
+    store3(target_plane(), o, z);
+    sums[0] = sums[0] + dot3(r, z);
+}
+
+KERNEL void mesh_residual(int o)
+{
+    store3(plane_s, o, load3(plane_r, o) - mesh_row_product(source_plane(), o));
+}
+
+// A sum of blocks of the finer level: the row of pairs that `start` points at.
+KERNEL Symmetric mesh_galerkin_sum(int start)
+{
+    Symmetric a = symmetric_diagonal(real(0.0f));
+    int end = topology(start + 1);
+    for (int k = topology(start); k < end; k += 2)
+        a = plus_scaled(a, finer_edge_load6(edge_block, topology(k)), topology_weight(k + 1));
+    return a;
+}
+
+KERNEL void mesh_coarsen_couplings(int e)
+{
+    edge_store6(edge_block, e, mesh_galerkin_sum(level.coupling_start + e));
+}
+
+KERNEL void mesh_coarsen_nodes(int o)
+{
+    int node = mesh_node(o), finer_first = finer_offset(0, 0);
+    Symmetric row_sum = symmetric_diagonal(real(0.0f));
+    int end = topology(level.children_start + node + 1);
+    for (int k = topology(level.children_start + node); k < end; k += 2) {
+        int f = finer.edges + topology(k) - finer_first;
+        row_sum = plus_scaled(row_sum, finer_edge_load6(edge_block, f), topology_weight(k + 1));
+    }
+    edge_store6(edge_block, level.edges + node, row_sum);
+    store6(plane_factor, o, factored(mesh_galerkin_sum(level.diagonal_start + node), real(0.0f)));
+}
+
+// The residual of the finer level, gathered, and the first correction of this one.
+KERNEL void mesh_restrict(int o)
+{
+    int node = mesh_node(o);
+    vec3 r = vec3(real(0.0f), real(0.0f), real(0.0f));
+    int end = topology(level.children_start + node + 1);
+    for (int k = topology(level.children_start + node); k < end; k += 2)
+        r = plus_scaled(r, finer_load3(plane_s, topology(k)), topology_weight(k + 1));
+    store3(plane_r, o, r);
+    store3(plane_z, o, solved(load6(plane_factor, o), r) * relaxation());
+}
+
+// The correction of this level, added to node f of the finer one.
+KERNEL void mesh_prolong(int f)
+{
+    int node = f - finer_offset(0, 0);
+    vec3 z = finer_load3(finer_plane(), f);
+    int end = topology(level.parents_start + node + 1);
+    for (int k = topology(level.parents_start + node); k < end; k += 2)
+        z = plus_scaled(z, load3(source_plane(), topology(k)), topology_weight(k + 1));
+    finer_store3(finer_plane(), f, z);
+}
+
+// The operator of the last level, dense, and factored.
+KERNEL void mesh_bottom_factor()
+{
+    bottom_clear();
+    for (int i = 0; i < level.columns; ++i)
+        bottom_add(i, i, edge_load6(edge_block, level.edges + i), real(1.0f));
+    for (int e = 0; e < level.edges; ++e) {
+        int i = mesh_node(topology(level.edge_ends + 3 * e)), j = mesh_node(topology(level.edge_ends + 3 * e + 1));
+        Symmetric b = edge_load6(edge_block, e);
+        bottom_add(i, i, b, real(1.0f));
+        bottom_add(j, j, b, real(1.0f));
+        bottom_add(j, i, b, real(-1.0f));  // the lower triangle
+    }
+    bottom_eliminate();
+}
+
+// --- ACAD, as acad.kernel.glsl has it for sheets -----------------------------------------------------------------------
+
+KERNEL void mesh_limits(int o)
+{
+    int node = mesh_node(o);
+    vec3 x = node_next_position(o);
+    for (int list = 0; list < 2; ++list) {
+        int start = (list == 0 ? level.row_start : level.held_start) + node;
+        for (int k = topology(start); k < topology(start + 1); k += 2) {
+            if (list == 0 && topology(k) < o) continue;
+            int e = topology(k + 1);
+            vec3 d = node_next_position(topology(k)) - x;
+            mask held = edge_load(edge_mark, e) > real(acad_has_memory() ? 0.0f : 2.0f);
+            mask over = is_overstretched(dot3(d, d), edge_load(edge_rest, e), held);
+            sums[0] = sums[0] + choose(over, real(1.0f), real(0.0f));
+        }
+    }
+}
+
+KERNEL void mesh_marks(int e)
+{
+    int ends = level.edge_ends + 3 * e;
+    vec3 d = node_next_position(topology(ends + 1)) - node_next_position(topology(ends));
+    mask held = edge_load(edge_mark, e) > real(acad_has_memory() ? 0.0f : 2.0f);
+    mask near = is_near_threshold(dot3(d, d), edge_load(edge_rest, e), held);
+    edge_store(edge_mark, e, choose(near, real(1.0f), real(0.0f)));
+}
+
+// The largest force of a constraint at a node, N.
+KERNEL void mesh_multipliers(int o)
+{
+    int node = mesh_node(o);
+    vec3 x = load3(plane_q, o) + load3(plane_t, o);
+    real most = real(0.0f);
+    for (int list = 0; list < 2; ++list) {
+        int start = (list == 0 ? level.row_start : level.held_start) + node;
+        for (int k = topology(start); k < topology(start + 1); k += 2) {
+            int e = topology(k + 1), j = topology(k);
+            vec3 d = load3(plane_q, j) + load3(plane_t, j) - x;
+            real length2 = dot3(d, d), rest = edge_load(edge_rest, e);
+            LimitCurve curve = class_curve(topology(level.edge_ends + 3 * e + 2));
+            SpringState state = limited_spring(curve, length2, inverse_sqrt(length2), rest);
+            real mark = is_acad() ? edge_load(edge_mark, e) : real(1.0f);
+            most = largest(magnitude(state.multiplier * mark), most);
+        }
+    }
+    set_multiplier(o, choose(scalar(scalar_idle) > 0.0f, real(0.0f), most));
+}

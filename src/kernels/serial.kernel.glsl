@@ -1,0 +1,138 @@
+// What one invocation does between the passes over nodes: it turns sums into the scalars of Newton's method, the line
+// search and conjugate gradients, and counts. The loops of solve/newton_multigrid.cpp are unrolled to their greatest
+// length; a loop ends by its flag here, and the passes that are left of it do nothing. So nothing returns to the host.
+
+KERNEL void solve_reset()
+{
+    for (int k = scalar_solves; k < scalar_count; ++k) set_scalar(k, real(0.0f));
+}
+
+// ACAD: a step that stretches no spring too far has nothing to solve.
+KERNEL void acad_check()
+{
+    set_scalar(scalar_idle, real(total(sum_active) > 0.0f ? 0.0f : 1.0f));
+}
+
+KERNEL void solve_begin()
+{
+    bool idle = scalar(scalar_idle) > 0.0f;
+    set_scalar(scalar_newton_done, real(idle ? 1.0f : 0.0f));
+    set_scalar(scalar_linear_done, real(1.0f));
+    set_scalar(scalar_search_done, real(1.0f));
+    set_scalar(scalar_newton, real(0.0f));
+    set_scalar(scalar_iterations, real(0.0f));
+    set_scalar(scalar_residual_last, real(0.0f));
+    set_scalar(scalar_load, total(sum_load));
+    set_scalar(scalar_energy, total(sum_spring_energy) + total(sum_node_energy));
+    set_scalar(scalar_contact_energy, total(sum_contact_energy));
+}
+
+KERNEL void linear_start()
+{
+    real r2 = total(sum_linear_residual2);
+    set_scalar(scalar_linear_done, real(r2 > 0.0f ? 0.0f : 1.0f));
+    set_scalar(scalar_first_residual2, r2);
+    set_scalar(scalar_residual2, r2);
+    set_scalar(scalar_rho, real(0.0f));
+    set_scalar(scalar_slope, real(0.0f));
+}
+
+// beta = (r . z) / (r . z)_before.  r . z is the square of the residual in the norm of the energy, J, and what ends the
+// iteration: a fraction of the load of the step, so that every linear system of a step is solved equally well. (A part of
+// its own first residual leaves the first systems of a step, whose residual is all overstretched springs, too rough; and
+// the plain norm of r hears nothing but stiff springs.)
+KERNEL void linear_beta()
+{
+    real rho = total(sum_rho), before = scalar(scalar_rho);
+    set_scalar(scalar_beta, before > 0.0f ? rho * reciprocal(before) : real(0.0f));
+    set_scalar(scalar_rho, rho);
+    if (!(before > 0.0f)) {
+        real load = scalar(scalar_load);
+        real scale = load > 0.0f && load < rho ? load : rho;
+        set_scalar(scalar_goal, scale * linear_tolerance() * linear_tolerance());
+    }
+    if (!(rho > 0.0f) || (before > 0.0f && rho <= scalar(scalar_goal))) set_scalar(scalar_linear_done, real(1.0f));
+}
+
+// alpha = (r . z) / (p . A p); rounding may take the positive definiteness of A: then what there is must do
+KERNEL void linear_alpha()
+{
+    real curvature = total(sum_curvature), rho = scalar(scalar_rho);
+    bool fine = curvature > 0.0f && is_finite(curvature);
+    real alpha = fine ? rho * reciprocal(curvature) : real(0.0f);
+    set_scalar(scalar_alpha, alpha);
+    set_scalar(scalar_slope, scalar(scalar_slope) + alpha * rho);
+    if (!fine) set_scalar(scalar_linear_done, real(1.0f));
+    set_scalar(scalar_iterations, scalar(scalar_iterations) + real(1.0f));
+}
+
+KERNEL void linear_check()
+{
+    real r2 = total(sum_linear_residual2);
+    set_scalar(scalar_residual2, r2);
+    if (!(r2 > 0.0f)) set_scalar(scalar_linear_done, real(1.0f));
+}
+
+KERNEL void search_begin()
+{
+    set_scalar(scalar_linear_done, real(1.0f));
+    set_scalar(scalar_search_done, real(0.0f));
+    set_scalar(scalar_step, real(1.0f));
+}
+
+// Armijo's rule, with room for the rounding of the sums. The last try is no step at all, and is taken. Either the whole
+// energy must fall or that without contact: a node that meets a collider within an iteration does not hold up the cloth,
+// for the next one sets it right.
+KERNEL void search_check()
+{
+    real energy = total(sum_spring_energy) + total(sum_node_energy);
+    real step = scalar(scalar_step), before = scalar(scalar_energy), slope = scalar(scalar_slope);
+    real room = real(1e-4f) * (largest(magnitude(before), scalar(scalar_load)));
+    real contact = total(sum_contact_energy), least = room - real(1e-4f) * step * slope;
+    bool falls = energy <= before + least || energy + contact <= before + scalar(scalar_contact_energy) + least;
+    if (falls || step == 0.0f) {
+        set_scalar(scalar_search_done, real(1.0f));
+        set_scalar(scalar_energy, energy);
+        set_scalar(scalar_contact_energy, contact);
+    } else {
+        set_scalar(scalar_step, step > 0.01f ? step * real(0.25f) : real(0.0f));
+    }
+}
+
+// The step r . A^-1 r that Newton's method has just gained, against the load of the step: the square of the residual
+// in the norm of the energy.
+KERNEL void newton_check()
+{
+    real newton = scalar(scalar_newton) + real(1.0f);
+    real load = scalar(scalar_load);
+    real left = load > 0.0f ? scalar(scalar_slope) * reciprocal(load) : real(0.0f);
+    set_scalar(scalar_newton, newton);
+    set_scalar(scalar_residual_last, left > 0.0f ? left * inverse_sqrt(left) : real(0.0f));
+    bool done = left <= newton_tolerance() * newton_tolerance() || !(scalar(scalar_step) > 0.0f);
+    if (done) set_scalar(scalar_newton_done, real(1.0f));
+}
+
+KERNEL void solve_end()
+{
+    real newton = scalar(scalar_newton), iterations = scalar(scalar_iterations);
+    real constraints = total(sum_active), residual = scalar(scalar_residual_last);
+    set_scalar(scalar_solves, scalar(scalar_solves) + real(1.0f));
+    set_scalar(scalar_newton_sum, scalar(scalar_newton_sum) + newton);
+    set_scalar(scalar_newton_max, largest(scalar(scalar_newton_max), newton));
+    set_scalar(scalar_iterations_sum, scalar(scalar_iterations_sum) + iterations);
+    set_scalar(scalar_iterations_max, largest(scalar(scalar_iterations_max), iterations));
+    set_scalar(scalar_residual_max, largest(scalar(scalar_residual_max), residual));
+    // The implicit step's own balance: springs give up S - S', contact and inertia's surplus f . t is worked against, and
+    // a converged step loses nothing but what its length costs. The rest was lost, or won, by not converging.
+    real springs = total(sum_spring_energy), work = total(sum_lost);
+    bool counts = scalar(scalar_started) > 0.0f && !is_acad();
+    real lost = counts ? scalar(scalar_spring_energy) - springs + work : real(0.0f);
+    set_scalar(scalar_energy_lost, scalar(scalar_energy_lost) + lost);
+    set_scalar(scalar_spring_energy, springs);
+    set_scalar(scalar_started, real(1.0f));
+    set_scalar(scalar_active_sum, scalar(scalar_active_sum) + constraints);
+    set_scalar(scalar_active_max, largest(scalar(scalar_active_max), constraints));
+    set_scalar(scalar_active_last, constraints);
+    set_scalar(scalar_newton_last, newton);
+    set_scalar(scalar_iterations_last, iterations);
+}

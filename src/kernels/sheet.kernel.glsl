@@ -1,0 +1,238 @@
+// The solver on sheets: geometric multigrid. A level is a sheet of half as many rows and columns; interpolation is
+// bilinear, and a coarse operator is what it makes of the fine one (Galerkin). Operators are kept by their couplings B,
+// and applied to differences:  (A x)_i = s_i x_i + sum_j B_ij (x_i - x_j),  so that what moves as a whole feels only s,
+// however stiff B is. Couplings of a sheet's level reach its eight neighbours; those of bend springs are folded onto
+// them, k (a - c)^2 as 2 k ((a - b)^2 + (b - c)^2), which is the same for smooth shapes and never softer.
+// Source: Trottenberg, Oosterlee, Schueller, "Multigrid", 2001.
+
+// Places of a sheet: the four forward neighbours by structural and shear springs, and the two by bend springs.
+KERNEL int forward_offset(int k)
+{
+    return k == 0 ? 1 : k == 1 ? level.stride - 1 : k == 2 ? level.stride : k == 3 ? level.stride + 1 : k == 4 ? 2 : 2 * level.stride;
+}
+
+KERNEL void sheet_springs(int o)
+{
+    vec3 q = load3(plane_q, o), t = load3(plane_t, o);
+    real energy = real(0.0f), taut = real(0.0f);
+    UNROLL for (int k = 0; k < 6; ++k) {
+        if (!sheet_has(k)) continue;
+        int j = o + forward_offset(k);
+        real scale = load((is_acad() ? plane_mark : plane_scale) + k, o);
+        vec3 start = load3(plane_q, j) - q;
+        vec3 d = start + (load3(plane_t, j) - t);
+        real length2 = dot3(d, d);
+        real inverse_length = inverse_sqrt(length2);
+        vec3 n = d * inverse_length;
+        LimitCurve curve = sheet_curve(k);
+        SpringState state = limited_spring(curve, length2, inverse_length, sheet_rest(k));
+        vec3 force = n * state.force;
+        Symmetric block = symmetric_about(n, state.along, state.across);
+        energy = energy + scale * state.energy;
+        if (has_damping()) {
+            vec3 n0 = start * inverse_sqrt(dot3(start, start));
+            real along = dot3(d - start, n0);
+            force = force + n0 * (curve.damping * along);
+            block = plus(block, symmetric_about(n0, curve.damping, real(0.0f)));
+            energy = energy + 0.5f * scale * curve.damping * along * along;
+        }
+        store3(plane_force + 3 * k, o, force * scale);
+        store6(plane_spring + 6 * k, o, plus_scaled(symmetric_diagonal(real(0.0f)), block, scale));
+        taut = taut + choose(magnitude(state.multiplier * scale) > 0.0f, real(1.0f), real(0.0f));
+    }
+    if (!in_halo()) store(plane_active, o, taut);
+    sums[0] = sums[0] + energy;
+}
+
+// The coupling along a row (k = 0) or a column (k = 2) with the bend springs over it.
+KERNEL Symmetric folded_block(int k, int o)
+{
+    Symmetric b = load6(plane_spring + 6 * k, o);
+    if (!has_bend()) return b;
+    int bend_plane = k == 0 ? plane_spring + 24 : plane_spring + 30;
+    b = plus_scaled(b, load6(bend_plane, o), real(2.0f));
+    return plus_scaled(b, load6(bend_plane, o - forward_offset(k)), real(2.0f));
+}
+KERNEL Symmetric coupling_block(int k, int o)
+{
+    if (k == 1 || k == 3 || exact_bend()) return load6(plane_spring + 6 * k, o);
+    return folded_block(k, o);
+}
+
+// The largest force of a constraint at a node, N.
+KERNEL void sheet_multipliers(int o)
+{
+    vec3 x = load3(plane_q, o) + load3(plane_t, o);
+    real most = real(0.0f);
+    for (int side = 0; side < 2; ++side)
+        for (int k = 0; k < 6; ++k) {
+            if (!sheet_has(k)) continue;
+            int j = side == 0 ? o + forward_offset(k) : o - forward_offset(k), first = side == 0 ? o : j;
+            vec3 d = load3(plane_q, j) + load3(plane_t, j) - x;
+            real length2 = dot3(d, d);
+            SpringState state = limited_spring(sheet_curve(k), length2, inverse_sqrt(length2), sheet_rest(k));
+            real scale = load((is_acad() ? plane_mark : plane_scale) + k, first);
+            most = largest(magnitude(state.multiplier * scale), most);
+        }
+    set_multiplier(o, choose(scalar(scalar_idle) > 0.0f, real(0.0f), most));
+}
+
+// Forces and the operator of a node from its springs.
+KERNEL void sheet_gather(int o)
+{
+    vec3 q = load3(plane_q, o), t = load3(plane_t, o);
+    real mass = load(plane_mass, o);
+    mask is_free = mass > 0.0f;
+    vec3 ahead = t - load3(plane_y, o);
+    vec3 r = ahead * (real(0.0f) - mass);
+    UNROLL for (int k = 0; k < 6; ++k) {
+        if (!sheet_has(k)) continue;
+        r = r + load3(plane_force + 3 * k, o) - load3(plane_force + 3 * k, o - forward_offset(k));
+    }
+    Contact contact = contact_at(o, q, t);
+    r = r + contact.force;
+    Symmetric row_sum = plus(symmetric_diagonal(mass), contact.stiffness);
+    Symmetric diagonal = row_sum;
+    UNROLL for (int k = 0; k < 4; ++k) {
+        if (!sheet_has(k)) continue;
+        int j = o + forward_offset(k), i = o - forward_offset(k);
+        mask free_j = load(plane_mass, j) > 0.0f;
+        real held_j = choose(free_j, real(0.0f), real(1.0f));
+        real held_i = choose(load(plane_mass, i) > 0.0f, real(0.0f), real(1.0f));
+        Symmetric to_j = coupling_block(k, o), to_i = coupling_block(k, i);
+        diagonal = plus(plus(diagonal, to_j), to_i);
+        // A coupling to a pinned node is a support of this one.
+        row_sum = plus_scaled(plus_scaled(row_sum, to_j, held_j), to_i, held_i);
+        mask coupled = both(is_free, free_j);
+        store6(plane_block + 6 * k, o, where_else_zero(coupled, to_j));
+        if (exact_bend() && k != 1 && k != 3)
+            store6(plane_fold + 3 * k, o, where_else_zero(coupled, folded_block(k, o)));
+    }
+    if (exact_bend())
+        UNROLL for (int k = 4; k < 6; ++k)
+            diagonal = plus(plus(diagonal, load6(plane_spring + 6 * k, o)),
+                            load6(plane_spring + 6 * k, o - forward_offset(k)));
+    store6(plane_row_sum, o, where_else_zero(is_free, row_sum));
+    store6(plane_factor, o, where_else_zero(is_free, factored(diagonal, mass)));
+    store3(plane_r, o, choose(is_free, r, vec3(real(0.0f), real(0.0f), real(0.0f))));
+    sums[0] = sums[0] + 0.5f * mass * dot3(ahead, ahead);
+    sums[1] = sums[1] + choose(is_free, contact.energy, real(0.0f));
+}
+
+// (A x) of a node; vectors are 0 at pinned nodes and beyond the border.
+KERNEL vec3 row_product(int x, int o)
+{
+    vec3 own = load3(x, o);
+    vec3 y = plus_product(vec3(real(0.0f), real(0.0f), real(0.0f)), load6(plane_row_sum, o), own);
+    UNROLL for (int k = 0; k < 4; ++k) {
+        int j = o + forward_offset(k), i = o - forward_offset(k);
+        y = plus_product(y, load6(plane_block + 6 * k, o), own - load3(x, j));
+        y = plus_product(y, load6(plane_block + 6 * k, i), own - load3(x, i));
+    }
+    if (exact_bend()) {
+        vec3 bend = vec3(real(0.0f), real(0.0f), real(0.0f));
+        UNROLL for (int k = 4; k < 6; ++k) {
+            int j = o + forward_offset(k), i = o - forward_offset(k);
+            bend = plus_product(bend, load6(plane_spring + 6 * k, o), own - load3(x, j));
+            bend = plus_product(bend, load6(plane_spring + 6 * k, i), own - load3(x, i));
+        }
+        y = y + bend * choose(load(plane_mass, o) > 0.0f, real(1.0f), real(0.0f));
+    }
+    return y;
+}
+
+// Bilinear interpolation: how much of a coarse node is in a fine one that lies (rows, columns) from it.
+KERNEL float interpolation(int rows, int columns)
+{
+    int a = rows < 0 ? -rows : rows, b = columns < 0 ? -columns : columns;
+    if (a > 1 || b > 1) return 0.0f;
+    return (a == 1 ? 0.5f : 1.0f) * (b == 1 ? 0.5f : 1.0f);
+}
+
+// The operator of this level from that of the finer one, whose node over this one is at f:
+//   A(I, J) = sum over fine couplings of (w_iI - w_jI) (w_iJ - w_jJ) B_ij + sum over fine nodes of w_iI w_iJ s_i
+KERNEL void sheet_coarsen(int o, int f)
+{
+    Symmetric zero = symmetric_diagonal(real(0.0f));
+    Symmetric diagonal = zero, row_sum = zero, block_0 = zero, block_1 = zero, block_2 = zero, block_3 = zero;
+    UNROLL for (int row = -2; row <= 1; ++row)
+        UNROLL for (int column = -2; column <= 2; ++column) {
+            int i = f + row * finer.stride + column;
+            float here = interpolation(row, column);
+            float here_0 = interpolation(row, column - 2), here_1 = interpolation(row - 2, column + 2);
+            float here_2 = interpolation(row - 2, column), here_3 = interpolation(row - 2, column - 2);
+            if (here > 0.0f) {
+                Symmetric s = finer_load6(plane_row_sum, i);
+                row_sum = plus_scaled(row_sum, s, real(here));
+                diagonal = plus_scaled(diagonal, s, real(here * here));
+                if (here_0 > 0.0f) block_0 = plus_scaled(block_0, s, real(-here * here_0));
+                if (here_1 > 0.0f) block_1 = plus_scaled(block_1, s, real(-here * here_1));
+                if (here_2 > 0.0f) block_2 = plus_scaled(block_2, s, real(-here * here_2));
+                if (here_3 > 0.0f) block_3 = plus_scaled(block_3, s, real(-here * here_3));
+            }
+            UNROLL for (int k = 0; k < 4; ++k) {
+                int down = k == 0 ? 0 : 1, right = k == 1 ? -1 : k == 2 ? 0 : 1;
+                float change = here - interpolation(row + down, column + right);
+                if (change == 0.0f) continue;
+                Symmetric b = finer_load6(finer_coupling(k), i);
+                diagonal = plus_scaled(diagonal, b, real(change * change));
+                float change_0 = here_0 - interpolation(row + down, column + right - 2);
+                float change_1 = here_1 - interpolation(row + down - 2, column + right + 2);
+                float change_2 = here_2 - interpolation(row + down - 2, column + right);
+                float change_3 = here_3 - interpolation(row + down - 2, column + right - 2);
+                if (change_0 != 0.0f) block_0 = plus_scaled(block_0, b, real(-change * change_0));
+                if (change_1 != 0.0f) block_1 = plus_scaled(block_1, b, real(-change * change_1));
+                if (change_2 != 0.0f) block_2 = plus_scaled(block_2, b, real(-change * change_2));
+                if (change_3 != 0.0f) block_3 = plus_scaled(block_3, b, real(-change * change_3));
+            }
+        }
+    mask inside = inside_level();  // what lies beyond a row's end is padding, and stays empty
+    store6(plane_row_sum, o, where_else_zero(inside, row_sum));
+    store6(plane_block, o, where_else_zero(inside, block_0));
+    store6(plane_block + 6, o, where_else_zero(inside, block_1));
+    store6(plane_block + 12, o, where_else_zero(inside, block_2));
+    store6(plane_block + 18, o, where_else_zero(inside, block_3));
+    store6(plane_factor, o, where_else_zero(inside, factored(diagonal, real(0.0f))));
+}
+
+// The residual of the finer level, gathered, and the first correction of this one.
+KERNEL void sheet_restrict(int o, int f)
+{
+    vec3 r = vec3(real(0.0f), real(0.0f), real(0.0f));
+    UNROLL for (int row = -1; row <= 1; ++row)
+        UNROLL for (int column = -1; column <= 1; ++column)
+            r = plus_scaled(r, finer_load3(plane_s, f + row * finer.stride + column), real(interpolation(row, column)));
+    Symmetric factor = load6(plane_factor, o);
+    r = choose(factor.xx > 0.0f, r, vec3(real(0.0f), real(0.0f), real(0.0f)));
+    store3(plane_r, o, r);
+    store3(plane_z, o, solved(factor, r) * relaxation());
+}
+
+// The correction of this level, added to the four nodes of the finer one at and after f.
+KERNEL void sheet_prolong(int o, int f)
+{
+    vec3 here = load3(source_plane(), o), right = load3(source_plane(), o + 1);
+    vec3 below = load3(source_plane(), o + level.stride), diagonal = load3(source_plane(), o + level.stride + 1);
+    finer_add3(finer_plane(), f, here, (here + right) * real(0.5f));
+    finer_add3(finer_plane(), f + finer.stride, (here + below) * real(0.5f),
+               (here + right + below + diagonal) * real(0.25f));
+}
+
+// The operator of the last level, dense.
+KERNEL void bottom_assemble()
+{
+    for (int row = 0; row < level.rows; ++row)
+        for (int column = 0; column < level.columns; ++column) {
+            int o = level_offset(row, column), i = row * level.columns + column;
+            bottom_add(i, i, load6(plane_row_sum, o), real(1.0f));
+            for (int k = 0; k < 4; ++k) {
+                int down = k == 0 ? 0 : 1, right = k == 1 ? -1 : k == 2 ? 0 : 1;
+                if (row + down >= level.rows || column + right < 0 || column + right >= level.columns) continue;
+                int j = i + down * level.columns + right;
+                Symmetric b = load6(plane_block + 6 * k, o);
+                bottom_add(i, i, b, real(1.0f));
+                bottom_add(j, j, b, real(1.0f));
+                bottom_add(j, i, b, real(-1.0f));  // the lower triangle
+            }
+        }
+}

@@ -1,0 +1,46 @@
+// Springs with a limit, as the implicit step sees them: an energy, its force, and how stiff it is along and across.
+//
+//   E(l) = 1/2 k e^2 + 1/2 K max(0, e - s l0)^2 + 1/2 K' max(0, -e - s l0)^2,   e = l - l0
+//
+// k is the stiffness below the limit s, 1 / K the compliance beyond it, K' = K when compression is resisted too, else 0.
+// A constraint of the papers is k = 0, s = 0: eq. (5) of the cloth paper made soft by its compliance, and unilateral.
+
+struct LimitCurve
+{
+    real below;       // k, N/m
+    real limit;       // s
+    real beyond;      // K, N/m
+    real compressed;  // K', N/m
+    real damping;     // c / dt, N/m: resists the change of length during the step
+};
+
+// What a spring does at its length: on node i the force is `force` n, n = (x_j - x_i) / l.
+struct SpringState
+{
+    real force;   // N, positive pulls
+    real along;   // N/m, the Hessian along n
+    real across;  // N/m, the Hessian across n
+    real energy;  // J
+    real multiplier;  // N, what the limit adds to the force of the stiffness below it
+};
+
+// The Hessian is the one that Newton's method wants, not the exact one: a slack spring keeps its stiffness K along n,
+// so that it is taut before it is overstretched, and the stiffness across n, f / l, is never negative. A spring that has
+// a stiffness below its limit to go by keeps K from half of the limit on.
+LAW SpringState limited_spring(LimitCurve curve, real length2, real inverse_length, real rest_length)
+{
+    real extension = length2 * inverse_length - rest_length;
+    real slack = curve.limit * rest_length;
+    real over = largest(extension - slack, real(0.0f));
+    real under = largest(real(0.0f) - extension - slack, real(0.0f));
+    SpringState state;
+    state.multiplier = curve.beyond * over - curve.compressed * under;
+    state.force = curve.below * extension + state.multiplier;
+    real reach = choose(both(curve.below > 0.0f, slack > 0.0f), 0.5f * slack, real(0.0f) - rest_length);
+    mask near = largest(extension, choose(curve.compressed > 0.0f, real(0.0f) - extension, extension)) > reach;
+    state.along = curve.below + choose(near, largest(curve.beyond, curve.compressed), real(0.0f));
+    state.across = largest(state.force * inverse_length, real(0.0f));
+    state.energy = 0.5f * (curve.below * extension * extension + curve.beyond * over * over +
+                           curve.compressed * under * under);
+    return state;
+}

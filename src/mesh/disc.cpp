@@ -1,0 +1,63 @@
+#include "mesh/disc.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace pliant {
+namespace {
+
+/// Between 0 and 1, from a node's index alone, so that a disc is the same on every machine; the finaliser of
+/// MurmurHash3 (Appleby), which spreads neighbouring indices over all bits.
+double scattered(std::uint32_t index)
+{
+    std::uint32_t h = index * 2'654'435'769u + 1u;
+    h = (h ^ (h >> 16)) * 0x85EB'CA6Bu;
+    h = (h ^ (h >> 13)) * 0xC2B2'AE35u;
+    return static_cast<double>(h ^ (h >> 16)) / 4'294'967'296.0;
+}
+
+}  // namespace
+
+SurfaceMesh make_disc(double radius, std::uint32_t rings)
+{
+    constexpr double jitter = 0.2;  // of the distance between rings; triangles turn over from about 0.4 on
+    constexpr double turn = 2 * std::numbers::pi;
+    const double spacing = radius / rings;
+    SurfaceMesh mesh;
+    mesh.vertices.reserve(disc_node_count(rings));
+    mesh.vertices.push_back({0, 0, 0});
+    for (std::uint32_t ring = 1; ring <= rings; ++ring)
+        for (std::uint32_t k = 0; k < 6 * ring; ++k) {
+            // Minus: from +x towards -z, counter-clockwise seen from above.
+            const double angle = -turn * k / (6.0 * ring);
+            double x = spacing * ring * std::cos(angle), z = spacing * ring * std::sin(angle);
+            if (ring < rings) {  // the hem stays round
+                const auto index = static_cast<std::uint32_t>(mesh.vertices.size());
+                const double distance = jitter * spacing * std::sqrt(scattered(2 * index));
+                const double direction = turn * scattered(2 * index + 1);
+                x += distance * std::cos(direction);
+                z += distance * std::sin(direction);
+            }
+            mesh.vertices.push_back({static_cast<float>(x), 0, static_cast<float>(z)});
+        }
+
+    // Each sixth of a ring joins `ring` edges of its own with `ring` - 1 of the ring inside.
+    mesh.triangles.reserve(6ull * rings * rings);
+    for (std::uint32_t ring = 1; ring <= rings; ++ring) {
+        const auto outer = static_cast<std::uint32_t>(disc_node_count(ring - 1));
+        const auto inner = ring > 1 ? static_cast<std::uint32_t>(disc_node_count(ring - 2)) : 0;
+        const std::uint32_t inner_count = ring > 1 ? 6 * (ring - 1) : 1;
+        for (std::uint32_t sixth = 0; sixth < 6; ++sixth)
+            for (std::uint32_t k = 0; k < ring; ++k) {
+                const std::uint32_t a = outer + sixth * ring + k;
+                const std::uint32_t b = outer + (sixth * ring + k + 1) % (6 * ring);
+                const std::uint32_t c = inner + (sixth * (ring - 1) + k) % inner_count;
+                mesh.triangles.push_back({c, a, b});
+                if (k + 1 < ring)
+                    mesh.triangles.push_back({c, b, inner + (sixth * (ring - 1) + k + 1) % inner_count});
+            }
+    }
+    return mesh;
+}
+
+}  // namespace pliant

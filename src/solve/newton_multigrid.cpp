@@ -1,0 +1,222 @@
+#include "solve/newton_multigrid.hpp"
+
+#include "solve/mass_spring.hpp"
+
+namespace pliant {
+namespace {
+
+/// How often a Newton step is shortened before it is given up: 1/4, 1/16, 1/64, 1/256, none.
+constexpr std::uint32_t search_tries = 6;
+
+class StepWriter {
+public:
+    StepWriter(const ClothModel& cloth, std::uint32_t index, std::uint32_t step, std::uint32_t parity,
+               std::vector<Call>& calls)
+        : cloth_(cloth),
+          index_(index),
+          step_(step),
+          parity_(parity),
+          calls_(calls),
+          level_count_(static_cast<std::uint32_t>(cloth.hierarchy.level_count())),
+          on_mesh_(!cloth.is_sheet())
+    {
+    }
+
+    void step()
+    {
+        add(Pass::step_begin);
+        evaluate(Guard::none, 1);
+        add(Pass::solve_begin);
+        for (std::uint32_t k = 0; k < newton_most(); ++k) newton_iteration();
+        add(Pass::step_end);
+        add(Pass::solve_end);
+    }
+
+    /// A step of ACAD: springs alone, and then the limits of those that they stretch too far.
+    void acad_step()
+    {
+        add(on_mesh_ ? Pass::mesh_limits : Pass::sheet_limits);
+        add(Pass::acad_check);
+        add(on_mesh_ ? Pass::mesh_marks : Pass::sheet_marks, Guard::idle);
+        add(Pass::acad_begin, Guard::idle);
+        evaluate(Guard::idle);
+        add(Pass::solve_begin);
+        for (std::uint32_t k = 0; k < newton_most(); ++k) newton_iteration();
+        add(Pass::acad_end, Guard::idle);
+        add(Pass::solve_end);
+    }
+
+    /// The first linear system of a step, without its solution.
+    void linear_system()
+    {
+        add(Pass::step_begin);
+        evaluate(Guard::none, 1);
+        add(Pass::solve_begin);
+    }
+
+    void prepare_linear_solve()
+    {
+        if (cloth_.newton.preconditioner == Preconditioner::multigrid) coarsen();
+        add(Pass::linear_begin, Guard::newton);
+        add(Pass::linear_start, Guard::newton);
+    }
+
+    void linear_iteration()
+    {
+        precondition();
+        add(Pass::linear_beta, Guard::linear);
+        add(Pass::linear_direction, Guard::linear);
+        add(on_mesh_ ? Pass::mesh_apply : Pass::linear_apply, Guard::linear);
+        add(Pass::linear_alpha, Guard::linear);
+        add(Pass::linear_update, Guard::linear);
+        add(Pass::linear_check, Guard::linear);
+    }
+
+private:
+    /// ACAD bounds stretch by stiff limits that come and go; a step of it that is left half solved wins
+    /// energy.
+    std::uint32_t newton_most() const
+    {
+        constexpr std::uint32_t more = 4;
+        return cloth_.newton.newton_iterations * (cloth_.method == Method::acad ? more : 1);
+    }
+
+    void add(Pass pass, Guard guard = Guard::none, std::uint32_t level = 0, std::uint32_t detail = 0)
+    {
+        calls_.push_back({pass, index_, parity_, step_, level, detail, guard});
+    }
+
+    /// Energy, forces and operator at the displacement t.
+    void evaluate(Guard guard, std::uint32_t first_look = 0)
+    {
+        add(on_mesh_ ? Pass::mesh_springs : Pass::sheet_springs, guard);
+        add(on_mesh_ ? Pass::mesh_gather : Pass::sheet_gather, guard, 0, first_look);
+    }
+
+    void coarsen()
+    {
+        for (std::uint32_t level = 1; level < level_count_; ++level) {
+            if (on_mesh_) add(Pass::mesh_coarsen_couplings, Guard::newton, level);
+            add(on_mesh_ ? Pass::mesh_coarsen_nodes : Pass::sheet_coarsen, Guard::newton, level);
+        }
+        add(on_mesh_ ? Pass::mesh_bottom_factor : Pass::bottom_factor, Guard::newton, level_count_ - 1);
+    }
+
+    void newton_iteration()
+    {
+        prepare_linear_solve();
+        for (std::uint32_t k = 0; k < cloth_.newton.linear_iterations; ++k) linear_iteration();
+        add(Pass::search_begin, Guard::newton);
+        add(Pass::newton_move, Guard::newton);
+        for (std::uint32_t k = 0; k < search_tries; ++k) {
+            if (k > 0) add(Pass::search_move, Guard::search);
+            evaluate(Guard::search);
+            add(Pass::search_check, Guard::search);
+        }
+        add(Pass::newton_check, Guard::newton);
+    }
+
+    void precondition()
+    {
+        switch (cloth_.newton.preconditioner) {
+            case Preconditioner::multigrid: return cycle(0);
+            case Preconditioner::jacobi: return add(Pass::linear_jacobi, Guard::linear);
+            case Preconditioner::none: return add(Pass::linear_plain, Guard::linear);
+        }
+    }
+
+    /// A V-cycle from a level on. The first smoothing step, from zero, is made by who writes the level's r: z
+    /// is there already. The result is in w, the second copy.
+    void cycle(std::uint32_t level)
+    {
+        if (level + 1 == level_count_) {
+            add(Pass::bottom_solve, Guard::linear, level);
+            return;
+        }
+        const std::uint32_t sweeps = cloth_.newton.smoothing;
+        const Pass smooth = on_mesh_ ? Pass::mesh_smooth : Pass::level_smooth;
+        std::uint32_t copy = 0;
+        for (std::uint32_t k = 1; k < sweeps; ++k, copy ^= 1)
+            add(smooth, Guard::linear, level, detail_of(copy, k));
+        add(on_mesh_ ? Pass::mesh_residual : Pass::level_residual, Guard::linear, level, detail_of(copy, 0));
+        add(on_mesh_ ? Pass::mesh_restrict : Pass::sheet_restrict, Guard::linear, level + 1);
+        cycle(level + 1);
+        const std::uint32_t child = level + 2 == level_count_ ? 0 : 1;
+        add(on_mesh_ ? Pass::mesh_prolong : Pass::sheet_prolong, Guard::linear, level + 1,
+            detail_of(child, copy));
+        for (std::uint32_t k = sweeps; k-- > 0; copy ^= 1)  // backwards, so that the cycle is symmetric
+            add(smooth, Guard::linear, level, detail_of(copy, k));
+    }
+
+    const ClothModel& cloth_;
+    std::uint32_t index_, step_, parity_;
+    std::vector<Call>& calls_;
+    std::uint32_t level_count_;
+    bool on_mesh_;
+};
+
+}  // namespace
+
+std::uint32_t append_acad_frame(std::span<const ClothModel> cloths, std::uint32_t steps, std::uint32_t parity,
+                                std::vector<Call>& calls)
+{
+    for (std::uint32_t c = 0; c < cloths.size(); ++c) calls.push_back({Pass::solve_reset, c, parity, 0});
+    for (std::uint32_t step = 0; step < steps; ++step, parity ^= 1)
+        for (std::uint32_t c = 0; c < cloths.size(); ++c) {
+            if (cloths[c].acad_implicit) {
+                append_wind(cloths[c], c, step, parity, calls);
+                append_attachments(cloths[c], c, step, parity, calls);
+                StepWriter(cloths[c], c, step, parity, calls).step();
+            } else {
+                append_mass_spring_step(cloths[c], c, step, parity, calls);
+                StepWriter(cloths[c], c, step, parity, calls).acad_step();
+            }
+        }
+    append_measures(cloths, parity, steps - 1, calls);
+    return parity;
+}
+
+void append_linear_system(const ClothModel& cloth, std::uint32_t index, std::uint32_t parity,
+                          std::vector<Call>& calls)
+{
+    calls.push_back({Pass::solve_reset, index, parity, 0});
+    StepWriter(cloth, index, 0, parity, calls).linear_system();
+}
+
+void append_linear_start(const ClothModel& cloth, std::uint32_t index, std::uint32_t parity,
+                         std::vector<Call>& calls)
+{
+    StepWriter(cloth, index, 0, parity, calls).prepare_linear_solve();
+}
+
+void append_linear_iterations(const ClothModel& cloth, std::uint32_t index, std::uint32_t parity,
+                              std::uint32_t count, std::vector<Call>& calls)
+{
+    StepWriter writer(cloth, index, 0, parity, calls);
+    for (std::uint32_t k = 0; k < count; ++k) writer.linear_iteration();
+}
+
+void append_multipliers(const ClothModel& cloth, std::uint32_t index, std::uint32_t parity,
+                        std::vector<Call>& calls)
+{
+    calls.push_back({cloth.solver == Solver::paper ? Pass::paper_export
+                     : cloth.is_sheet()            ? Pass::sheet_multipliers
+                                                   : Pass::mesh_multipliers,
+                     index, parity, 0});
+}
+
+std::uint32_t append_constraint_frame(std::span<const ClothModel> cloths, std::uint32_t steps,
+                                      std::uint32_t parity, std::vector<Call>& calls)
+{
+    for (std::uint32_t c = 0; c < cloths.size(); ++c) calls.push_back({Pass::solve_reset, c, parity, 0});
+    for (std::uint32_t step = 0; step < steps; ++step, parity ^= 1)
+        for (std::uint32_t c = 0; c < cloths.size(); ++c) {
+            append_wind(cloths[c], c, step, parity, calls);
+            append_attachments(cloths[c], c, step, parity, calls);
+            StepWriter(cloths[c], c, step, parity, calls).step();
+        }
+    append_measures(cloths, parity, steps - 1, calls);
+    return parity;
+}
+
+}  // namespace pliant
