@@ -24,10 +24,11 @@ KERNEL mask is_near_threshold(real length2, real rest, mask held)
 KERNEL void sheet_limits(int o)
 {
     vec3 x = node_next_position(o);
-    for (int k = 0; k < 6; ++k) {
+    UNROLL for (int k = 0; k < 6; ++k) {
         if (!sheet_has(k)) continue;
         vec3 d = node_next_position(o + forward_offset(k)) - x;
-        mask held = load(plane_mark + k, o) > real(acad_has_memory() ? 0.0f : 2.0f);
+        real mark = acad_has_memory() ? load(plane_mark + k, o) : real(0.0f);
+        mask held = mark > 0.0f;
         mask there = load(plane_scale + k, o) > 0.0f;
         sums[0] = sums[0] + choose(both(there, is_overstretched(dot3(d, d), sheet_rest(k), held)), real(1.0f), real(0.0f));
     }
