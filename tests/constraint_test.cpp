@@ -63,6 +63,22 @@ double mass_of(const Scene& scene, std::uint64_t nodes)
     return *scene.cloth(0).node_mass * static_cast<double>(nodes);
 }
 
+/// To 1e-5 m, a hundred-thousandth of the sheet.
+void expect_cpu_and_vulkan_agree(const Scene& scene, int frames)
+{
+    Simulation cpu(scene, test::on(Backend::cpu)), vulkan(scene, test::on(Backend::vulkan));
+    for (int frame = 0; frame < frames; ++frame) {
+        cpu.advance(1 / 60.0);
+        vulkan.advance(1 / 60.0);
+    }
+    EXPECT_EQ(vulkan.report().validation_messages, 0U);
+    const auto a = cpu.positions(), b = vulkan.positions();
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const Vec3d d = to_double(a[i]) - to_double(b[i]);
+        ASSERT_LT(std::sqrt(dot(d, d)), 1e-5) << "node " << i;
+    }
+}
+
 TEST(Constraint, PendulumKeepsItsLengthToTheCompliance)
 {
     // A bar of one link, held at its upper end, released from the horizontal. At the bottom the two links
@@ -238,17 +254,7 @@ TEST(Constraint, BackendsAgree)
     scene.newton_multigrid.linear_iterations = 12;
     scene.cloth_handle(0)->springs.structural.compliance = scene.cloth_handle(0)->springs.shear.compliance =
         1e-3;
-    Simulation cpu(scene, test::on(Backend::cpu)), vulkan(scene, test::on(Backend::vulkan));
-    for (int frame = 0; frame < 10; ++frame) {
-        cpu.advance(1 / 60.0);
-        vulkan.advance(1 / 60.0);
-    }
-    EXPECT_EQ(vulkan.report().validation_messages, 0U);
-    const auto a = cpu.positions(), b = vulkan.positions();
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        const Vec3d d = to_double(a[i]) - to_double(b[i]);
-        ASSERT_LT(std::sqrt(dot(d, d)), 1e-5) << "node " << i;
-    }
+    expect_cpu_and_vulkan_agree(scene, 10);
 }
 
 TEST(Constraint, ClothRestsOnASphereAndDoesNotEnterIt)
@@ -323,8 +329,7 @@ TEST(Constraint, StaysFiniteAcrossTheGrid)
                 }
 }
 
-// --- ACAD
-// ---------------------------------------------------------------------------------------------------
+// --- ACAD ---
 
 Scene acad_sheet(std::uint32_t n, double stiffness)
 {
@@ -376,21 +381,10 @@ TEST(Acad, BackendsAgree)
     // Constraint.BackendsAgree.
     Scene scene = acad_sheet(8, 30);
     scene.time.substeps = 4;
-    Simulation cpu(scene, test::on(Backend::cpu)), vulkan(scene, test::on(Backend::vulkan));
-    for (int frame = 0; frame < 5; ++frame) {
-        cpu.advance(1 / 60.0);
-        vulkan.advance(1 / 60.0);
-    }
-    EXPECT_EQ(vulkan.report().validation_messages, 0U);
-    const auto a = cpu.positions(), b = vulkan.positions();
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        const Vec3d d = to_double(a[i]) - to_double(b[i]);
-        ASSERT_LT(std::sqrt(dot(d, d)), 1e-5) << "node " << i;
-    }
+    expect_cpu_and_vulkan_agree(scene, 5);
 }
 
-// --- moving pins
-// ----------------------------------------------------------------------------------------------
+// --- moving pins ---
 
 TEST(MovingPins, GoWhereTheirKeyframesSendThem)
 {

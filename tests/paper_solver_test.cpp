@@ -12,7 +12,7 @@
 #include "backend/host/plain_cloth.hpp"
 #include "backend/host/solver_state.hpp"
 #include "kernels/planes.hpp"
-#include "solve/paper.hpp"
+#include "solve/frame.hpp"
 #include "test_cloths.hpp"
 
 namespace pliant {
@@ -80,7 +80,7 @@ struct Bench {
     void step(Pass last = Pass::paper_end)
     {
         std::vector<Call> calls;
-        append_paper_frame({&model, 1}, 1, parity, calls);
+        append_frame({&model, 1}, 1, parity, calls);
         for (const Call& call : calls) {
             if (!is_solver_pass(call.pass) || solver.skips(call)) continue;
             solver.run(call, solver.context(call, cloth, constants, {}), 0, solver.size_of(call));

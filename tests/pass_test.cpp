@@ -11,6 +11,7 @@
 #include "backend/cpu/kernels.hpp"
 #include "backend/pass_runner.hpp"
 #include "backend/vulkan/vulkan_runner.hpp"
+#include "solve/frame.hpp"
 #include "solve/mass_spring.hpp"
 #include "test_cloths.hpp"
 
@@ -83,7 +84,7 @@ std::map<Resource, std::vector<float>> results_of(PassRunner& runner, const Clot
                                                   std::span<const PlacedCollider> colliders)
 {
     Program program{1, {}, 0};
-    program.parity_after = append_mass_spring_frame({&model, 1}, 1, 0, program.calls);
+    program.parity_after = append_frame({&model, 1}, 1, 0, program.calls);
     append_drawing(model, 0, program.parity_after, program.calls);
     // A moving pin goes 1 m/s.
     std::vector<std::vector<Vec3>> attached(1);
@@ -210,7 +211,7 @@ TEST(PassTable, EveryPassIsRunByTheCasesAbove)
         const Scene scene = scene_of(c);
         const ClothModel model(scene.cloth(0), scene);
         std::vector<Call> calls;
-        append_mass_spring_frame({&model, 1}, 1, 0, calls);
+        append_frame({&model, 1}, 1, 0, calls);
         append_drawing(model, 0, 1, calls);
         for (const Call& call : calls) ++runs[call.pass];
     }

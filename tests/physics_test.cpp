@@ -5,6 +5,7 @@
 #include <numbers>
 #include <random>
 
+#include "solve/frame.hpp"
 #include "solve/mass_spring.hpp"
 #include "test_cloths.hpp"
 #include "test_runners.hpp"
@@ -120,7 +121,7 @@ TEST_P(OnEveryBackend, MomentumIsKeptWithoutGravity)
     constexpr std::uint32_t steps_taken = 3600;
     const auto runner = test::make_runner(GetParam(), model);
     Program program{1, {}, 0};
-    program.parity_after = append_mass_spring_frame({&model, 1}, steps_taken, 0, program.calls);
+    program.parity_after = append_frame({&model, 1}, steps_taken, 0, program.calls);
     runner->run(program, {1.0 / 3600, 0, {}, true});
     std::vector<float> v;
     runner->read(0, Resource::velocity, program.parity_after, v);

@@ -9,8 +9,8 @@
 #include "backend/cpu/kernels.hpp"
 #include "backend/pass_runner.hpp"
 #include "backend/vulkan/vulkan_runner.hpp"
+#include "solve/frame.hpp"
 #include "solve/newton_multigrid.hpp"
-#include "solve/paper.hpp"
 #include "test_cloths.hpp"
 
 namespace pliant {
@@ -81,13 +81,7 @@ Scene scene_of(const SolverCase& c)
 std::vector<Call> frame_of(const ClothModel& model, std::uint32_t parity)
 {
     std::vector<Call> calls;
-    const std::span<const ClothModel> cloths(&model, 1);
-    if (model.solver == Solver::paper)
-        append_paper_frame(cloths, 1, parity, calls);
-    else if (model.method == Method::acad)
-        append_acad_frame(cloths, 1, parity, calls);
-    else
-        append_constraint_frame(cloths, 1, parity, calls);
+    append_frame({&model, 1}, 1, parity, calls);
     append_multipliers(model, 0, 1 - parity, calls);
     return calls;
 }

@@ -42,25 +42,34 @@ KERNEL void linear_plain(int o)
     sums[0] = sums[0] + dot3(r, r);
 }
 
-KERNEL void linear_apply(int o)
+// What is made of a product with the operator, whether it goes by the rows of a sheet or of a mesh.
+KERNEL void leave_applied(int o, vec3 ap)
 {
-    vec3 p = load3(plane_p, o);
-    vec3 ap = row_product(plane_p, o);
     store3(plane_ap, o, ap);
-    sums[0] = sums[0] + dot3(p, ap);
+    sums[0] = sums[0] + dot3(load3(plane_p, o), ap);
 }
-
 // source and target: plane_z or plane_w
-KERNEL void level_smooth(int o)
+KERNEL void leave_smoothed(int o, vec3 product)
 {
     vec3 r = load3(plane_r, o);
-    vec3 rest = r - row_product(source_plane(), o);
-    vec3 z = plus_scaled(load3(source_plane(), o), solved(load6(plane_factor, o), rest), relaxation());
+    vec3 z = plus_scaled(load3(source_plane(), o), solved(load6(plane_factor, o), r - product), relaxation());
     store3(target_plane(), o, z);
     sums[0] = sums[0] + dot3(r, z);
 }
+KERNEL void leave_residual(int o, vec3 product)
+{
+    store3(plane_s, o, load3(plane_r, o) - product);
+}
 
+KERNEL void linear_apply(int o)
+{
+    leave_applied(o, row_product(plane_p, o));
+}
+KERNEL void level_smooth(int o)
+{
+    leave_smoothed(o, row_product(source_plane(), o));
+}
 KERNEL void level_residual(int o)
 {
-    store3(plane_s, o, load3(plane_r, o) - row_product(source_plane(), o));
+    leave_residual(o, row_product(source_plane(), o));
 }

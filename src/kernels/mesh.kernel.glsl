@@ -14,33 +14,18 @@ KERNEL void mesh_springs(int e)
 {
     int ends = level.edge_ends + 3 * e;
     int i = topology(ends), j = topology(ends + 1);
-    vec3 start = load3(plane_q, j) - load3(plane_q, i);
-    vec3 d = start + (load3(plane_t, j) - load3(plane_t, i));
-    real length2 = dot3(d, d);
-    real inverse_length = inverse_sqrt(length2);
-    vec3 n = d * inverse_length;
-    LimitCurve curve = class_curve(topology(ends + 2));
-    SpringState state = limited_spring(curve, length2, inverse_length, edge_load(edge_rest, e));
-    vec3 force = n * state.force;
-    Symmetric block = symmetric_about(n, state.along, state.across);
-    real energy = state.energy;
-    if (has_damping()) {
-        vec3 n0 = start * inverse_sqrt(dot3(start, start));
-        real along = dot3(d - start, n0);
-        force = force + n0 * (curve.damping * along);
-        block = plus(block, symmetric_about(n0, curve.damping, real(0.0f)));
-        energy = energy + 0.5f * curve.damping * along * along;
-    }
+    SpringShare spring = spring_share(class_curve(topology(ends + 2)), load3(plane_q, j) - load3(plane_q, i),
+                                      load3(plane_t, j) - load3(plane_t, i), edge_load(edge_rest, e));
     if (is_acad()) {
         real mark = edge_load(edge_mark, e);
-        force = force * mark;
-        block = plus_scaled(symmetric_diagonal(real(0.0f)), block, mark);
-        energy = energy * mark;
+        spring.force = spring.force * mark;
+        spring.block = plus_scaled(symmetric_diagonal(real(0.0f)), spring.block, mark);
+        spring.energy = spring.energy * mark;
     }
-    edge_store3(edge_force, e, force);
-    edge_store6(edge_block, e, block);
-    edge_store(edge_taut, e, choose(magnitude(state.multiplier) > 0.0f, real(1.0f), real(0.0f)));
-    sums[0] = sums[0] + energy;
+    edge_store3(edge_force, e, spring.force);
+    edge_store6(edge_block, e, spring.block);
+    edge_store(edge_taut, e, choose(magnitude(spring.multiplier) > 0.0f, real(1.0f), real(0.0f)));
+    sums[0] = sums[0] + spring.energy;
 }
 
 // Forces and the operator of a node from its springs. A spring to a pinned node is a support of this one. A taut spring
@@ -92,26 +77,18 @@ KERNEL vec3 mesh_row_product(int x, int o)
     return y;
 }
 
+// As linear_apply, level_smooth and level_residual have it for sheets.
 KERNEL void mesh_apply(int o)
 {
-    vec3 p = load3(plane_p, o);
-    vec3 ap = mesh_row_product(plane_p, o);
-    store3(plane_ap, o, ap);
-    sums[0] = sums[0] + dot3(p, ap);
+    leave_applied(o, mesh_row_product(plane_p, o));
 }
-
 KERNEL void mesh_smooth(int o)
 {
-    vec3 r = load3(plane_r, o);
-    vec3 rest = r - mesh_row_product(source_plane(), o);
-    vec3 z = plus_scaled(load3(source_plane(), o), solved(load6(plane_factor, o), rest), relaxation());
-    store3(target_plane(), o, z);
-    sums[0] = sums[0] + dot3(r, z);
+    leave_smoothed(o, mesh_row_product(source_plane(), o));
 }
-
 KERNEL void mesh_residual(int o)
 {
-    store3(plane_s, o, load3(plane_r, o) - mesh_row_product(source_plane(), o));
+    leave_residual(o, mesh_row_product(source_plane(), o));
 }
 
 // A sum of blocks of the finer level: the row of pairs that `start` points at.

@@ -7,6 +7,37 @@
 // resolves it to a part of itself and not of the distance to the origin. Newton's method starts at the displacement
 // dt v, not at 0 and not at y: from there slack springs are found slack (docs/physics.md, "Constraints").
 
+// A spring between two nodes in a step: the force on the first, N, and what the operator and the energy take from it.
+struct SpringShare
+{
+    vec3 force;
+    Symmetric block;
+    real energy, multiplier;
+};
+
+// start: x_j - x_i when the step began; moved: t_j - t_i
+KERNEL SpringShare spring_share(LimitCurve curve, vec3 start, vec3 moved, real rest_length)
+{
+    vec3 d = start + moved;
+    real length2 = dot3(d, d);
+    real inverse_length = inverse_sqrt(length2);
+    vec3 n = d * inverse_length;
+    SpringState state = limited_spring(curve, length2, inverse_length, rest_length);
+    SpringShare share;
+    share.force = n * state.force;
+    share.block = symmetric_about(n, state.along, state.across);
+    share.energy = state.energy;
+    share.multiplier = state.multiplier;
+    if (has_damping()) {
+        vec3 n0 = start * inverse_sqrt(dot3(start, start));
+        real along = dot3(d - start, n0);
+        share.force = share.force + n0 * (curve.damping * along);
+        share.block = plus(share.block, symmetric_about(n0, curve.damping, real(0.0f)));
+        share.energy = share.energy + 0.5f * curve.damping * along * along;
+    }
+    return share;
+}
+
 // Contact of a node with the solid parts of the scene. The energy 1/2 k d^2 of the depth d, and friction as in
 // Li et al., "Incremental Potential Contact", 2020: the normal force of the last step times the coefficient, growing
 // linearly with the tangential displacement up to `slip`, constant beyond.
@@ -17,7 +48,6 @@ struct Contact
     real energy;        // J
 };
 
-//
 // The first look of a step, at the displacement dt v, takes a node that inertia would carry into a collider for touching
 // it already: as stiff as contact, and drawn to the surface. Newton's first step then ends on the surface, and not as deep
 // inside as nothing but inertia would go.
@@ -76,6 +106,7 @@ KERNEL void step_begin(int o)
     vec3 ahead = aim - start;
     sums[0] = sums[0] + mass * dot3(ahead, ahead);
 
+    if (collider_count() == 0) return;  // nobody asks for friction
     vec3 normal = zero, drag = zero;
     real deepest = real(0.0f), grip = real(0.0f);
     for (int k = 0; k < collider_count(); ++k) {

@@ -11,6 +11,12 @@ KERNEL int forward_offset(int k)
     return k == 0 ? 1 : k == 1 ? level.stride - 1 : k == 2 ? level.stride : k == 3 ? level.stride + 1 : k == 4 ? 2 : 2 * level.stride;
 }
 
+// 1 where the sheet has such a spring, and ACAD has marked it.
+KERNEL real spring_scale(int k, int o)
+{
+    return load((is_acad() ? plane_mark : plane_scale) + k, o);
+}
+
 KERNEL void sheet_springs(int o)
 {
     vec3 q = load3(plane_q, o), t = load3(plane_t, o);
@@ -18,27 +24,13 @@ KERNEL void sheet_springs(int o)
     UNROLL for (int k = 0; k < 6; ++k) {
         if (!sheet_has(k)) continue;
         int j = o + forward_offset(k);
-        real scale = load((is_acad() ? plane_mark : plane_scale) + k, o);
-        vec3 start = load3(plane_q, j) - q;
-        vec3 d = start + (load3(plane_t, j) - t);
-        real length2 = dot3(d, d);
-        real inverse_length = inverse_sqrt(length2);
-        vec3 n = d * inverse_length;
-        LimitCurve curve = sheet_curve(k);
-        SpringState state = limited_spring(curve, length2, inverse_length, sheet_rest(k));
-        vec3 force = n * state.force;
-        Symmetric block = symmetric_about(n, state.along, state.across);
-        energy = energy + scale * state.energy;
-        if (has_damping()) {
-            vec3 n0 = start * inverse_sqrt(dot3(start, start));
-            real along = dot3(d - start, n0);
-            force = force + n0 * (curve.damping * along);
-            block = plus(block, symmetric_about(n0, curve.damping, real(0.0f)));
-            energy = energy + 0.5f * scale * curve.damping * along * along;
-        }
-        store3(plane_force + 3 * k, o, force * scale);
-        store6(plane_spring + 6 * k, o, plus_scaled(symmetric_diagonal(real(0.0f)), block, scale));
-        taut = taut + choose(magnitude(state.multiplier * scale) > 0.0f, real(1.0f), real(0.0f));
+        real scale = spring_scale(k, o);
+        SpringShare spring =
+            spring_share(sheet_curve(k), load3(plane_q, j) - q, load3(plane_t, j) - t, sheet_rest(k));
+        energy = energy + scale * spring.energy;
+        store3(plane_force + 3 * k, o, spring.force * scale);
+        store6(plane_spring + 6 * k, o, plus_scaled(symmetric_diagonal(real(0.0f)), spring.block, scale));
+        taut = taut + choose(magnitude(spring.multiplier * scale) > 0.0f, real(1.0f), real(0.0f));
     }
     if (!in_halo()) store(plane_active, o, taut);
     sums[0] = sums[0] + energy;
@@ -71,7 +63,7 @@ KERNEL void sheet_multipliers(int o)
             vec3 d = load3(plane_q, j) + load3(plane_t, j) - x;
             real length2 = dot3(d, d);
             SpringState state = limited_spring(sheet_curve(k), length2, inverse_sqrt(length2), sheet_rest(k));
-            real scale = load((is_acad() ? plane_mark : plane_scale) + k, first);
+            real scale = spring_scale(k, first);
             most = largest(magnitude(state.multiplier * scale), most);
         }
     set_multiplier(o, choose(scalar(scalar_idle) > 0.0f, real(0.0f), most));

@@ -12,9 +12,9 @@
 #include "backend/vulkan/vulkan_runner.hpp"
 #include "body/cloth_model.hpp"
 #include "kernels/planes.hpp"
+#include "solve/frame.hpp"
 #include "solve/mass_spring.hpp"
 #include "solve/newton_multigrid.hpp"
-#include "solve/paper.hpp"
 
 namespace pliant {
 namespace {
@@ -224,13 +224,7 @@ public:
         if (found == programs.end() && programs.size() >= most_programs) programs.clear();
         if (found == programs.end()) {
             Program program{next_program_id++, {}, 0};
-            program.parity_after = scene.method == Method::mass_spring
-                                       ? append_mass_spring_frame(models, steps, parity, program.calls)
-                                   : scene.solver == Solver::paper
-                                       ? append_paper_frame(models, steps, parity, program.calls)
-                                   : scene.method == Method::acad
-                                       ? append_acad_frame(models, steps, parity, program.calls)
-                                       : append_constraint_frame(models, steps, parity, program.calls);
+            program.parity_after = append_frame(models, steps, parity, program.calls);
             found = programs.emplace(key, std::move(program)).first;
         }
         return found->second;

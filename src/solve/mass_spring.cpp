@@ -2,16 +2,6 @@
 
 namespace pliant {
 
-std::uint32_t append_mass_spring_frame(std::span<const ClothModel> cloths, std::uint32_t steps,
-                                       std::uint32_t parity, std::vector<Call>& calls)
-{
-    for (std::uint32_t step = 0; step < steps; ++step, parity ^= 1)
-        for (std::uint32_t c = 0; c < cloths.size(); ++c)
-            append_mass_spring_step(cloths[c], c, step, parity, calls);
-    append_measures(cloths, parity, steps - 1, calls);
-    return parity;
-}
-
 void append_mass_spring_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step,
                              std::uint32_t parity, std::vector<Call>& calls)
 {

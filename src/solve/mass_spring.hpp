@@ -9,12 +9,7 @@
 
 namespace pliant {
 
-/// Appends one frame: `steps` symplectic Euler steps of every cloth, starting from the state copy `parity`,
-/// then the measures of the state that they reach. Returns the parity of that state.
-std::uint32_t append_mass_spring_frame(std::span<const ClothModel> cloths, std::uint32_t steps,
-                                       std::uint32_t parity, std::vector<Call>& calls);
-
-/// Appends one step of one cloth.
+/// Appends one symplectic Euler step of one cloth, from the state copy `parity` to the other.
 void append_mass_spring_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step,
                              std::uint32_t parity, std::vector<Call>& calls);
 

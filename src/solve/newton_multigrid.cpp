@@ -157,23 +157,11 @@ private:
 
 }  // namespace
 
-std::uint32_t append_acad_frame(std::span<const ClothModel> cloths, std::uint32_t steps, std::uint32_t parity,
-                                std::vector<Call>& calls)
+void append_acad_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step, std::uint32_t parity,
+                      std::vector<Call>& calls)
 {
-    for (std::uint32_t c = 0; c < cloths.size(); ++c) calls.push_back({Pass::solve_reset, c, parity, 0});
-    for (std::uint32_t step = 0; step < steps; ++step, parity ^= 1)
-        for (std::uint32_t c = 0; c < cloths.size(); ++c) {
-            if (cloths[c].acad_implicit) {
-                append_wind(cloths[c], c, step, parity, calls);
-                append_attachments(cloths[c], c, step, parity, calls);
-                StepWriter(cloths[c], c, step, parity, calls).step();
-            } else {
-                append_mass_spring_step(cloths[c], c, step, parity, calls);
-                StepWriter(cloths[c], c, step, parity, calls).acad_step();
-            }
-        }
-    append_measures(cloths, parity, steps - 1, calls);
-    return parity;
+    append_mass_spring_step(cloth, index, step, parity, calls);
+    StepWriter(cloth, index, step, parity, calls).acad_step();
 }
 
 void append_linear_system(const ClothModel& cloth, std::uint32_t index, std::uint32_t parity,
@@ -205,18 +193,12 @@ void append_multipliers(const ClothModel& cloth, std::uint32_t index, std::uint3
                      index, parity, 0});
 }
 
-std::uint32_t append_constraint_frame(std::span<const ClothModel> cloths, std::uint32_t steps,
-                                      std::uint32_t parity, std::vector<Call>& calls)
+void append_constraint_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step, std::uint32_t parity,
+                            std::vector<Call>& calls)
 {
-    for (std::uint32_t c = 0; c < cloths.size(); ++c) calls.push_back({Pass::solve_reset, c, parity, 0});
-    for (std::uint32_t step = 0; step < steps; ++step, parity ^= 1)
-        for (std::uint32_t c = 0; c < cloths.size(); ++c) {
-            append_wind(cloths[c], c, step, parity, calls);
-            append_attachments(cloths[c], c, step, parity, calls);
-            StepWriter(cloths[c], c, step, parity, calls).step();
-        }
-    append_measures(cloths, parity, steps - 1, calls);
-    return parity;
+    append_wind(cloth, index, step, parity, calls);
+    append_attachments(cloth, index, step, parity, calls);
+    StepWriter(cloth, index, step, parity, calls).step();
 }
 
 }  // namespace pliant

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "body/cloth_model.hpp"
@@ -11,14 +10,13 @@
 
 namespace pliant {
 
-/// Appends one frame: `steps` implicit steps of every cloth, starting from the state copy `parity`, then the
-/// measures of the state that they reach. Returns the parity of that state.
-std::uint32_t append_constraint_frame(std::span<const ClothModel> cloths, std::uint32_t steps,
-                                      std::uint32_t parity, std::vector<Call>& calls);
+/// Appends one implicit step of one cloth, from the state copy `parity` to the other.
+void append_constraint_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step, std::uint32_t parity,
+                            std::vector<Call>& calls);
 
-/// The same for ACAD: steps of springs alone, made good where they stretch a spring beyond the threshold.
-std::uint32_t append_acad_frame(std::span<const ClothModel> cloths, std::uint32_t steps, std::uint32_t parity,
-                                std::vector<Call>& calls);
+/// The same for ACAD: a step of springs alone, made good where it stretches a spring beyond the threshold.
+void append_acad_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step, std::uint32_t parity,
+                      std::vector<Call>& calls);
 
 /// The first linear system of a step by itself, for measurements: what assembles it at the state copy
 /// `parity`, what prepares conjugate gradients for it (with the hierarchy, where there is one), and

@@ -3,14 +3,15 @@
 #include "solve/mass_spring.hpp"
 
 namespace pliant {
-namespace {
 
-void append_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step, std::uint32_t parity,
+void append_paper_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step, std::uint32_t parity,
                  std::vector<Call>& calls)
 {
     const auto add = [&](Pass pass, Guard guard = Guard::none, std::uint32_t detail = 0) {
         calls.push_back({pass, index, parity, step, 0, detail, guard});
     };
+    append_wind(cloth, index, step, parity, calls);
+    append_attachments(cloth, index, step, parity, calls);
     add(Pass::paper_begin);
     add(Pass::paper_springs);
     add(Pass::paper_gather);
@@ -32,22 +33,6 @@ void append_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t ste
     add(Pass::paper_multipliers, Guard::idle);
     add(Pass::paper_step);
     add(Pass::paper_end);
-}
-
-}  // namespace
-
-std::uint32_t append_paper_frame(std::span<const ClothModel> cloths, std::uint32_t steps,
-                                 std::uint32_t parity, std::vector<Call>& calls)
-{
-    for (std::uint32_t c = 0; c < cloths.size(); ++c) calls.push_back({Pass::solve_reset, c, parity, 0});
-    for (std::uint32_t step = 0; step < steps; ++step, parity ^= 1)
-        for (std::uint32_t c = 0; c < cloths.size(); ++c) {
-            append_wind(cloths[c], c, step, parity, calls);
-            append_attachments(cloths[c], c, step, parity, calls);
-            append_step(cloths[c], c, step, parity, calls);
-        }
-    append_measures(cloths, parity, steps - 1, calls);
-    return parity;
 }
 
 }  // namespace pliant

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "body/cloth_model.hpp"
@@ -11,9 +10,8 @@
 
 namespace pliant {
 
-/// Appends one frame of the solver paper: `steps` steps of every cloth, starting from the state copy
-/// `parity`, then the measures of the state that they reach. Returns the parity of that state.
-std::uint32_t append_paper_frame(std::span<const ClothModel> cloths, std::uint32_t steps,
-                                 std::uint32_t parity, std::vector<Call>& calls);
+/// Appends one step of one cloth by the solver paper, from the state copy `parity` to the other.
+void append_paper_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step, std::uint32_t parity,
+                       std::vector<Call>& calls);
 
 }  // namespace pliant

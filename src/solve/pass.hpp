@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "kernels/planes.hpp"
+
 namespace pliant {
 
 enum class Pass : std::uint32_t {
@@ -40,9 +42,14 @@ struct PassDescription {
 const PassDescription& description_of(Pass pass);
 std::span<const PassDescription> all_passes();
 
-/// A call is skipped while the scalar that guards it is set: its loop has ended. The numbers are those of the
-/// scalars in kernels/planes.kernel.glsl.
-enum class Guard : std::uint32_t { newton = 0, linear = 1, search = 2, idle = 13, none = 32 };
+/// A call is skipped while the scalar that guards it is set: its loop has ended.
+enum class Guard : std::uint32_t {
+    newton = scalar_newton_done,
+    linear = scalar_linear_done,
+    search = scalar_search_done,
+    idle = scalar_idle,
+    none = scalar_count,
+};
 
 /// One run of a pass over one cloth.
 struct Call {
@@ -57,13 +64,13 @@ struct Call {
 };
 
 /// The planes and the weight of a smoothing step: it reads copy `source` (0 or 1) of the correction, and
-/// damps by number `relaxation` of SolverParameters::relaxations.
+/// damps by number `relaxation` of SolverConstants::relaxations.
 constexpr std::uint32_t detail_of(std::uint32_t source, std::uint32_t relaxation)
 {
     return source | relaxation << 1;
 }
 
-/// Sums that a pass leaves in parts, by their numbers in kernels/planes.kernel.glsl.
+/// Sums that a pass leaves in parts.
 struct SumSlots {
     std::uint32_t first = 0, count = 0;
 };
@@ -71,31 +78,31 @@ constexpr SumSlots sum_slots_of(Pass pass)
 {
     switch (pass) {
         case Pass::mesh_springs:
-        case Pass::sheet_springs: return {0, 1};
+        case Pass::sheet_springs: return {sum_spring_energy, 1};
         case Pass::mesh_gather:
-        case Pass::sheet_gather: return {1, 2};
+        case Pass::sheet_gather: return {sum_node_energy, 2};  // and of contact
         case Pass::mesh_apply:
-        case Pass::linear_apply: return {3, 1};
+        case Pass::linear_apply: return {sum_curvature, 1};
         case Pass::linear_begin:
-        case Pass::linear_update: return {4, 1};
+        case Pass::linear_update: return {sum_linear_residual2, 1};
         case Pass::linear_jacobi:
         case Pass::linear_plain:
         case Pass::mesh_smooth:
-        case Pass::level_smooth: return {5, 1};
+        case Pass::level_smooth: return {sum_rho, 1};
         case Pass::acad_begin:
-        case Pass::step_begin: return {6, 1};
+        case Pass::step_begin: return {sum_load, 1};
         case Pass::mesh_limits:
-        case Pass::sheet_limits: return {8, 1};
-        case Pass::step_end: return {7, 2};
-        case Pass::paper_springs: return {8, 1};
-        case Pass::paper_apply: return {3, 1};
-        case Pass::paper_system: return {4, 1};
-        case Pass::paper_update: return {4, 2};
+        case Pass::sheet_limits: return {sum_active, 1};
+        case Pass::step_end: return {sum_lost, 2};  // and active constraints
+        case Pass::paper_springs: return {sum_active, 1};
+        case Pass::paper_apply: return {sum_curvature, 1};
+        case Pass::paper_system: return {sum_linear_residual2, 1};
+        case Pass::paper_update: return {sum_linear_residual2, 2};
         default: return {};
     }
 }
-constexpr std::uint32_t sum_slot_count = 9;
-constexpr std::uint32_t solver_scalar_count = 32;
+constexpr std::uint32_t sum_slot_count = sum_slots;
+constexpr std::uint32_t solver_scalar_count = scalar_count;
 
 /// A sequence of calls with an identity, so that a backend can record it once and replay it.
 struct Program {

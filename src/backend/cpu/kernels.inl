@@ -25,25 +25,6 @@ inline void store(const Vectors& to, std::ptrdiff_t offset, const Vector& a)
     a.y.store(to.y + offset);
     a.z.store(to.z + offset);
 }
-inline Vector broadcast(const Vector3<float>& a) { return {Number(a.x), Number(a.y), Number(a.z)}; }
-
-inline L::Collider broadcast(const Laws<float>::Collider& a)
-{
-    L::Collider c;
-    c.kind = a.kind;
-    c.response = a.response;
-    c.centre = broadcast(a.centre);
-    c.axis_x = broadcast(a.axis_x);
-    c.axis_y = broadcast(a.axis_y);
-    c.axis_z = broadcast(a.axis_z);
-    c.half_size = broadcast(a.half_size);
-    c.radius = Number(a.radius);
-    c.friction = Number(a.friction);
-    c.velocity = broadcast(a.velocity);
-    c.spin = broadcast(a.spin);
-    return c;
-}
-
 /// Lanes whose column, shifted, is on the sheet.
 inline L::mask lanes_on_sheet(std::ptrdiff_t column, std::ptrdiff_t columns)
 {
@@ -108,7 +89,7 @@ inline Vector spring_forces_on(const SheetArguments& a, const Block& block, cons
 void sheet_step(const SheetArguments& a, std::size_t first_row, std::size_t end_row)
 {
     const StepConstants<float>& c = *a.constants;
-    const Vector gravity = broadcast(c.gravity);
+    const Vector gravity = spread_vector<Number>(c.gravity);
     const Number dt(c.dt), decay(c.decay), thickness(c.thickness);
     for_each_block(a, first_row, end_row, [&](const Block& block) {
         const L::Motion now = {load(a.position, block.offset), load(a.velocity, block.offset)};
@@ -120,7 +101,7 @@ void sheet_step(const SheetArguments& a, std::size_t first_row, std::size_t end_
         next.velocity = L::velocity_step(now.velocity, force, w, gravity, decay, dt);
         next.position = L::position_step(now.position, next.velocity, dt);
         for (std::size_t k = 0; k < a.collider_count; ++k)
-            next = L::contact_step(now, next, broadcast(a.colliders[k]), thickness, w, dt);
+            next = L::contact_step(now, next, spread_collider<L::Collider, Number>(a.colliders[k]), thickness, w, dt);
         store(a.next_position, block.offset, next.position);
         store(a.next_velocity, block.offset, next.velocity);
     });
@@ -137,7 +118,7 @@ constexpr SheetTriangle sheet_triangles[6] = {{-1, -1, true}, {-1, 0, false}, {-
 void sheet_wind(const SheetArguments& a, std::size_t first_row, std::size_t end_row)
 {
     const StepConstants<float>& c = *a.constants;
-    const Vector wind = broadcast(c.wind);
+    const Vector wind = spread_vector<Number>(c.wind);
     const Number density(c.air_density), drag(c.drag), lift(c.lift);
     const auto rows = static_cast<std::ptrdiff_t>(a.layout->rows),
                columns = static_cast<std::ptrdiff_t>(a.layout->columns);

@@ -1,6 +1,8 @@
 // Numbers of neighbouring nodes that a kernel works on at once: one of them here, W in backend/cpu/pack.hpp.
 #pragma once
 
+#include "laws/laws.hpp"
+
 namespace pliant {
 
 template <class T>
@@ -21,5 +23,29 @@ struct Lanes {
     static T sum(T a) { return a; }
     static T multiply_add(T a, T b, T c) { return a * b + c; }
 };
+
+/// One vector, and one collider, for all lanes of T.
+template <class T, class Vector>
+auto spread_vector(const Vector& a)
+{
+    return Vector3<T>{Lanes<T>::spread(a.x), Lanes<T>::spread(a.y), Lanes<T>::spread(a.z)};
+}
+template <class Target, class T, class Source>
+Target spread_collider(const Source& a)
+{
+    Target c;
+    c.kind = a.kind;
+    c.response = a.response;
+    c.centre = spread_vector<T>(a.centre);
+    c.axis_x = spread_vector<T>(a.axis_x);
+    c.axis_y = spread_vector<T>(a.axis_y);
+    c.axis_z = spread_vector<T>(a.axis_z);
+    c.half_size = spread_vector<T>(a.half_size);
+    c.radius = Lanes<T>::spread(a.radius);
+    c.friction = Lanes<T>::spread(a.friction);
+    c.velocity = spread_vector<T>(a.velocity);
+    c.spin = spread_vector<T>(a.spin);
+    return c;
+}
 
 }  // namespace pliant

@@ -17,30 +17,10 @@ template <class T>
 struct SolverKernels {
     using Number = typename Lanes<T>::Number;
     using Context = SolverContext<Number>;
-    using real = T;
-    using vec3 = Vector3<T>;
-    using vec4 = Vector4<T>;
-    using mask = decltype(T{} > T{});
-    static constexpr int inverse_sqrt_steps = NumberTraits<T>::inverse_sqrt_steps;
-
-    static real inverse_sqrt_seed(real a) { return NumberTraits<T>::inverse_sqrt_seed(a); }
-    static mask is_finite(real a) { return NumberTraits<T>::is_finite(a); }
-    static mask both(mask a, mask b) { return NumberTraits<T>::both(a, b); }
-    static bool any_lane(mask a) { return NumberTraits<T>::any_lane(a); }
-    static real choose(mask m, real a, real b) { return NumberTraits<T>::choose(m, a, b); }
-    static vec3 choose(mask m, vec3 a, vec3 b)
-    {
-        return {choose(m, a.x, b.x), choose(m, a.y, b.y), choose(m, a.z, b.z)};
-    }
-    static vec3 xyz(vec4 a) { return {a.x, a.y, a.z}; }
+#include "laws/laws_of_type.inl"
     static real multiply_add(real a, real b, real c) { return Lanes<T>::multiply_add(a, b, c); }
 
-#define LAW static inline
-#include "laws/all.law.glsl"
-#undef LAW
-
-    // --- what the kernels' text calls
-    // ------------------------------------------------------------------------
+    // --- what the kernels' text calls ---
 
 #define KERNEL inline __attribute__((always_inline))
 #define UNROLL _Pragma("GCC unroll 9")
@@ -177,20 +157,7 @@ struct SolverKernels {
     int collider_count() const { return context.collider_count; }
     Collider collider(int k) const
     {
-        const auto& a = context.colliders[k];
-        Collider c;
-        c.kind = a.kind;
-        c.response = a.response;
-        c.centre = spread(a.centre);
-        c.axis_x = spread(a.axis_x);
-        c.axis_y = spread(a.axis_y);
-        c.axis_z = spread(a.axis_z);
-        c.half_size = spread(a.half_size);
-        c.radius = spread(a.radius);
-        c.friction = spread(a.friction);
-        c.velocity = spread(a.velocity);
-        c.spin = spread(a.spin);
-        return c;
+        return spread_collider<Collider, T>(context.colliders[k]);
     }
 
     template <class P>
@@ -308,8 +275,7 @@ struct SolverKernels {
 #undef KERNEL
 #undef UNROLL
 
-    // --- how they run
-    // ------------------------------------------------------------------------------------------
+    // --- how they run ---
 
     /// Runs the part [begin, end) of a pass over nodes: rows, in segments of `segment_columns`.
     void run(Pass pass, int begin, int end)

@@ -7,9 +7,8 @@
 
 #include "backend/vulkan/cloth_buffers.hpp"
 #include "backend/vulkan/shader_code.hpp"
+#include "solve/frame.hpp"
 #include "solve/mass_spring.hpp"
-#include "solve/newton_multigrid.hpp"
-#include "solve/paper.hpp"
 
 namespace pliant {
 namespace {
@@ -240,11 +239,6 @@ private:
     {
         const auto most = device_->physical().getProperties().limits.maxComputeWorkGroupCount;
         std::vector<Call> calls;
-        const auto append_frame = std::none_of(models.begin(), models.end(), needs_solver)
-                                      ? append_mass_spring_frame
-                                  : models.front().solver == Solver::paper ? append_paper_frame
-                                  : models.front().method == Method::acad  ? append_acad_frame
-                                                                           : append_constraint_frame;
         append_frame(models, 1, 0, calls);
         for (std::uint32_t c = 0; c < models.size(); ++c) append_drawing(models[c], c, 0, calls);
         for (const Call& call : calls) {

@@ -1,0 +1,36 @@
+#include "solve/frame.hpp"
+
+#include "solve/mass_spring.hpp"
+#include "solve/newton_multigrid.hpp"
+#include "solve/paper.hpp"
+
+namespace pliant {
+namespace {
+
+void append_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step, std::uint32_t parity,
+                 std::vector<Call>& calls)
+{
+    if (cloth.method == Method::mass_spring)
+        append_mass_spring_step(cloth, index, step, parity, calls);
+    else if (cloth.solver == Solver::paper)
+        append_paper_step(cloth, index, step, parity, calls);
+    else if (cloth.method == Method::acad && !cloth.acad_implicit)
+        append_acad_step(cloth, index, step, parity, calls);
+    else
+        append_constraint_step(cloth, index, step, parity, calls);
+}
+
+}  // namespace
+
+std::uint32_t append_frame(std::span<const ClothModel> cloths, std::uint32_t steps, std::uint32_t parity,
+                           std::vector<Call>& calls)
+{
+    for (std::uint32_t c = 0; c < cloths.size(); ++c)
+        if (!cloths[c].hierarchy.empty()) calls.push_back({Pass::solve_reset, c, parity, 0});
+    for (std::uint32_t step = 0; step < steps; ++step, parity ^= 1)
+        for (std::uint32_t c = 0; c < cloths.size(); ++c) append_step(cloths[c], c, step, parity, calls);
+    append_measures(cloths, parity, steps - 1, calls);
+    return parity;
+}
+
+}  // namespace pliant
