@@ -9,10 +9,16 @@ function(pliant_add_shaders target)
         file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.comp ${folder}/*.vert ${folder}/*.frag)
         foreach(source IN LISTS sources)
             get_filename_component(name ${source} NAME)
+            # The optimiser fuses products and sums before we can forbid it (with_exact_arithmetic in shader_code.hpp),
+            # so that compute shaders leave optimising to the driver.
+            set(optimise -O)
+            if(name MATCHES "\\.comp$")
+                set(optimise -O0)
+            endif()
             set(output ${include_directory}/shaders/${name}.inc)
             add_custom_command(
                 OUTPUT ${output}
-                COMMAND ${GLSLC} --target-env=vulkan1.2 -O -Werror -mfmt=num -MD -MF ${output}.d -MT ${output}
+                COMMAND ${GLSLC} --target-env=vulkan1.2 ${optimise} -Werror -mfmt=num -MD -MF ${output}.d -MT ${output}
                         -I ${PROJECT_SOURCE_DIR}/src -I ${PROJECT_SOURCE_DIR}/src/laws -I ${folder} ${source} -o ${output}
                 DEPENDS ${source} DEPFILE ${output}.d
                 COMMENT "Compiling shader ${name}" VERBATIM)

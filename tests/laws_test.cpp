@@ -127,7 +127,50 @@ TEST(Spring, StretchAndEnergy)
 }
 
 // --- integration
-// ------------------------------------------------------------------------------------------------------
+// --- springs with limits ---
+
+const D::LimitCurve limit_curves[] = {
+    {0, 50, 0.02, 4000, 4000, 0},  // a stiffness below the limit, resisting both ways beyond it
+    {0, 0, 0.01, 4000, 0, 0},      // tension alone
+    {1, 70, 0, 0, 0, 0},           // a plain spring
+    {2, 0, 0, 4000, 0, 0},         // a thread that does not give
+};
+
+TEST(Limit, ForceIsTheSlopeOfTheEnergyAndMultiplierWhatTheLimitAdds)
+{
+    constexpr double rest = 0.5, h = 1e-6;  // m
+    const auto state = [](const D::LimitCurve& curve, double l) {
+        return D::spring_state(curve, l * l, 1 / l, rest);
+    };
+    for (const D::LimitCurve& curve : limit_curves)
+        for (const double l : {0.4, 0.488, 0.499, 0.503, 0.5075, 0.53, 0.7}) {
+            // No kink of the energy's slope lies within h, so that the difference quotient is off by rounding
+            // alone.
+            const double slope = (state(curve, l + h).energy - state(curve, l - h).energy) / (2 * h);
+            EXPECT_NEAR(state(curve, l).force, slope, 1e-6 * (1 + std::abs(slope)))
+                << curve.kind << ", " << l;
+            EXPECT_NEAR(state(curve, l).multiplier, state(curve, l).force - curve.below * (l - rest), 1e-9);
+            EXPECT_GE(state(curve, l).across, 0);
+        }
+}
+
+TEST(Limit, KindsAreTheGeneralLawWhereTheRestOfItIsZero)
+{
+    for (const D::LimitCurve& curve : limit_curves)
+        for (const double l : {0.3, 0.49, 0.5, 0.51, 0.8}) {
+            D::LimitCurve general = curve;
+            general.kind = 0;
+            const auto a = D::spring_state(curve, l * l, 1 / l, 0.5),
+                       b = D::spring_state(general, l * l, 1 / l, 0.5);
+            EXPECT_DOUBLE_EQ(a.force, b.force);
+            EXPECT_DOUBLE_EQ(a.along, b.along);
+            EXPECT_DOUBLE_EQ(a.across, b.across);
+            EXPECT_DOUBLE_EQ(a.energy, b.energy);
+            EXPECT_DOUBLE_EQ(a.multiplier, b.multiplier);
+        }
+}
+
+// --- integration ---
 
 TEST(Integration, VelocityFirst)
 {

@@ -19,6 +19,7 @@ struct BenchOptions {
     std::string only;    ///< cases with this in their names alone
     bool quick = false;  ///< small cloths and few frames: to see that it works, not for figures
     std::string json_file, csv_file;
+    std::vector<std::string> meshes;  ///< files, for the linear systems
 };
 int bench_command(const BenchOptions& options);
 
@@ -79,6 +80,8 @@ std::vector<BenchCase> stability_cases(const BenchOptions& options);
 Scene hanging_sheet(std::uint32_t n, double compliance, double density = 0.3);
 /// The same of an irregular triangle mesh of about this many nodes.
 Scene hanging_mesh(std::uint32_t nodes, double compliance);
+/// The same of the mesh in a file, which its first two vertices hold.
+Scene hanging_file(const std::string& mesh_file, double compliance);
 /// Makes bend springs constraints, too.
 void bend_by_constraints(Scene& scene, double compliance);
 

@@ -78,6 +78,13 @@ Scene hanging_mesh(std::uint32_t nodes, double compliance)
     return hung(std::move(cloth), compliance);
 }
 
+Scene hanging_file(const std::string& mesh_file, double compliance)
+{
+    Cloth cloth = Cloth::mesh(read_mesh(mesh_file), {.density = 0.3});
+    cloth.pin(0u).pin(1u);
+    return hung(std::move(cloth), compliance);
+}
+
 void bend_by_constraints(Scene& scene, double compliance)
 {
     make_constraint(scene.cloth_handle(0)->springs.bend, compliance);

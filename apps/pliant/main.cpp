@@ -127,6 +127,10 @@ void add_bench(CLI::App& app, BenchOptions& options)
         ->type_name("N");
     bench->add_option("--only", options.only, "Only the cases with this in their names, as in --only hanging")
         ->type_name("TEXT");
+    bench
+        ->add_option("--mesh", options.meshes,
+                     "A mesh whose linear systems are solved, too (constraint); may be given several times")
+        ->type_name("FILE");
     bench->add_flag("--quick", options.quick, "Small cloths and few frames: to see that it works");
     bench->add_option("--json", options.json_file, "All rows, JSON")->type_name("F.json");
     bench->add_option("--csv", options.csv_file, "All rows, CSV")->type_name("F.csv");

@@ -81,6 +81,13 @@ struct LimitedSprings {
     double limit = 0;
     double beyond = 0;      ///< N/m
     double compressed = 0;  ///< N/m
+
+    /// LimitCurve::kind of laws/limit.law.glsl.
+    int curve_kind() const
+    {
+        if (beyond == 0 && compressed == 0) return 1;
+        return below == 0 && limit == 0 && compressed == 0 ? 2 : 0;
+    }
 };
 
 /// A node that a moving pin holds.
@@ -136,7 +143,13 @@ public:
     PaperOptions paper;
     AcadOptions acad;
     std::array<LimitedSprings, spring_class_count> limited;  ///< by class, of the constraint methods
-    Hierarchy hierarchy;                                     ///< of the constraint methods
+    /// Whether bend springs are constraints: too stiff to be folded onto others in the operator.
+    bool bends_by_constraints() const
+    {
+        const LimitedSprings& bend = limited[static_cast<std::size_t>(SpringClass::bend)];
+        return method == Method::constraint && bend.exists && bend.beyond > 0;
+    }
+    Hierarchy hierarchy;  ///< of the constraint methods
     // Only when not node-centric:
     std::vector<Spring> springs;   ///< sorted by (i, j)
     Ragged<Neighbour> neighbours;  ///< per node, sorted by the other node

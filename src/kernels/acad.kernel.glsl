@@ -12,6 +12,13 @@ KERNEL mask is_overstretched(real length2, real rest, mask held)
     return length2 > choose(length2 < below * rest2, real(-1.0f), above * rest2);
 }
 
+// The same where no spring was one before: the whole cost of being ready.
+KERNEL mask is_beyond(real length2, real rest2)
+{
+    if (!acad_has_compression()) return length2 > acad_above2() * rest2;
+    return length2 > choose(length2 < acad_below2() * rest2, real(-1.0f), acad_above2() * rest2);
+}
+
 // Near enough to the threshold that this step may take it there.
 KERNEL mask is_near_threshold(real length2, real rest, mask held)
 {
@@ -27,10 +34,9 @@ KERNEL void sheet_limits(int o)
     UNROLL for (int k = 0; k < 6; ++k) {
         if (!sheet_has(k)) continue;
         vec3 d = node_next_position(o + forward_offset(k)) - x;
-        real mark = acad_has_memory() ? load(plane_mark + k, o) : real(0.0f);
-        mask held = mark > 0.0f;
-        mask there = load(plane_scale + k, o) > 0.0f;
-        sums[0] = sums[0] + choose(both(there, is_overstretched(dot3(d, d), sheet_rest(k), held)), real(1.0f), real(0.0f));
+        mask over = acad_has_memory() ? is_overstretched(dot3(d, d), sheet_rest(k), load(plane_mark + k, o) > 0.0f)
+                                      : is_beyond(dot3(d, d), sheet_rest(k) * sheet_rest(k));
+        sums[0] = sums[0] + choose(over, load(plane_scale + k, o), real(0.0f));
     }
 }
 

@@ -52,12 +52,11 @@ KERNEL Symmetric symmetric_about(vec3 n, real along, real across)
                      multiply_add(m.z, n.z, across));
 }
 
-// y + A x
-KERNEL vec3 plus_product(vec3 y, Symmetric a, vec3 x)
+// A x
+KERNEL vec3 product(Symmetric a, vec3 x)
 {
-    return vec3(multiply_add(a.xx, x.x, multiply_add(a.xy, x.y, multiply_add(a.xz, x.z, y.x))),
-                multiply_add(a.xy, x.x, multiply_add(a.yy, x.y, multiply_add(a.yz, x.z, y.y))),
-                multiply_add(a.xz, x.x, multiply_add(a.yz, x.y, multiply_add(a.zz, x.z, y.z))));
+    return vec3((a.xx * x.x + a.xy * x.y) + a.xz * x.z, (a.xy * x.x + a.yy * x.y) + a.yz * x.z,
+                (a.xz * x.x + a.yz * x.y) + a.zz * x.z);
 }
 
 // y + s x

@@ -15,13 +15,8 @@ KERNEL void mesh_springs(int e)
     int ends = level.edge_ends + 3 * e;
     int i = topology(ends), j = topology(ends + 1);
     SpringShare spring = spring_share(class_curve(topology(ends + 2)), load3(plane_q, j) - load3(plane_q, i),
-                                      load3(plane_t, j) - load3(plane_t, i), edge_load(edge_rest, e));
-    if (is_acad()) {
-        real mark = edge_load(edge_mark, e);
-        spring.force = spring.force * mark;
-        spring.block = plus_scaled(symmetric_diagonal(real(0.0f)), spring.block, mark);
-        spring.energy = spring.energy * mark;
-    }
+                                      load3(plane_t, j) - load3(plane_t, i), edge_load(edge_rest, e),
+                                      is_acad() ? edge_load(edge_mark, e) : real(1.0f));
     edge_store3(edge_force, e, spring.force);
     edge_store6(edge_block, e, spring.block);
     edge_store(edge_taut, e, choose(magnitude(spring.multiplier) > 0.0f, real(1.0f), real(0.0f)));
@@ -69,11 +64,10 @@ KERNEL vec3 mesh_row_product(int x, int o)
 {
     int node = mesh_node(o);
     vec3 own = load3(x, o);
-    vec3 zero = vec3(real(0.0f), real(0.0f), real(0.0f));
-    vec3 y = plus_product(zero, edge_load6(edge_block, level.edges + node), own);
+    vec3 y = product(edge_load6(edge_block, level.edges + node), own);
     int end = topology(level.row_start + node + 1);
     for (int k = topology(level.row_start + node); k < end; k += 2)
-        y = plus_product(y, edge_load6(edge_block, topology(k + 1)), own - load3(x, topology(k)));
+        y = y + product(edge_load6(edge_block, topology(k + 1)), own - load3(x, topology(k)));
     return y;
 }
 
@@ -199,7 +193,7 @@ KERNEL void mesh_multipliers(int o)
             vec3 d = load3(plane_q, j) + load3(plane_t, j) - x;
             real length2 = dot3(d, d), rest = edge_load(edge_rest, e);
             LimitCurve curve = class_curve(topology(level.edge_ends + 3 * e + 2));
-            SpringState state = limited_spring(curve, length2, inverse_sqrt(length2), rest);
+            SpringState state = spring_state(curve, length2, inverse_sqrt(length2), rest);
             real mark = is_acad() ? edge_load(edge_mark, e) : real(1.0f);
             most = largest(magnitude(state.multiplier * mark), most);
         }

@@ -15,25 +15,25 @@ struct SpringShare
     real energy, multiplier;
 };
 
-// start: x_j - x_i when the step began; moved: t_j - t_i
-KERNEL SpringShare spring_share(LimitCurve curve, vec3 start, vec3 moved, real rest_length)
+// start: x_j - x_i when the step began; moved: t_j - t_i; scale: 1, or 0 where there is no such spring
+KERNEL SpringShare spring_share(LimitCurve curve, vec3 start, vec3 moved, real rest_length, real scale)
 {
     vec3 d = start + moved;
     real length2 = dot3(d, d);
     real inverse_length = inverse_sqrt(length2);
     vec3 n = d * inverse_length;
-    SpringState state = limited_spring(curve, length2, inverse_length, rest_length);
+    SpringState state = spring_state(curve, length2, inverse_length, rest_length);
     SpringShare share;
-    share.force = n * state.force;
-    share.block = symmetric_about(n, state.along, state.across);
-    share.energy = state.energy;
-    share.multiplier = state.multiplier;
+    share.force = n * (state.force * scale);
+    share.block = symmetric_about(n, state.along * scale, state.across * scale);
+    share.energy = state.energy * scale;
+    share.multiplier = state.multiplier * scale;
     if (has_damping()) {
         vec3 n0 = start * inverse_sqrt(dot3(start, start));
-        real along = dot3(d - start, n0);
-        share.force = share.force + n0 * (curve.damping * along);
-        share.block = plus(share.block, symmetric_about(n0, curve.damping, real(0.0f)));
-        share.energy = share.energy + 0.5f * curve.damping * along * along;
+        real along = dot3(d - start, n0), damping = curve.damping * scale;
+        share.force = share.force + n0 * (damping * along);
+        share.block = plus(share.block, symmetric_about(n0, damping, real(0.0f)));
+        share.energy = share.energy + 0.5f * damping * along * along;
     }
     return share;
 }

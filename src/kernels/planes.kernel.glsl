@@ -27,10 +27,11 @@ const int node_planes = 78;
 // Of a sheet's node, one for each of its six forward springs; of a mesh they lie by spring.
 const int plane_scale = 78;    // multiplies stiffness; 0 where the sheet has no such spring
 const int plane_mark = 84;     // of ACAD: 1 where the spring is a limit in this step
-const int plane_spring = 90;   // blocks: structural and shear in the order of the couplings, then bend
-const int plane_fold = 126;    // couplings along rows and columns with bend springs folded in
-const int plane_force = 138;   // N, on the node
-const int sheet_planes = 156;
+const int sheet_planes = 90;
+// Where bend springs are constraints: their blocks, and couplings along rows and columns with them folded in.
+const int plane_bend = 90;
+const int plane_fold = 102;
+const int bent_sheet_planes = 114;
 
 // Of a mesh's spring; a coupling of a coarser level has the block alone. Row sums of nodes come after the blocks.
 const int edge_block = 0;      // N/m

@@ -17,38 +17,15 @@ KERNEL real spring_scale(int k, int o)
     return load((is_acad() ? plane_mark : plane_scale) + k, o);
 }
 
-KERNEL void sheet_springs(int o)
+// A spring as the node at i has it, which it draws towards the one at j; nothing where `scale` is 0.
+KERNEL SpringShare sheet_spring(int k, int i, int j, real scale)
 {
-    vec3 q = load3(plane_q, o), t = load3(plane_t, o);
-    real energy = real(0.0f), taut = real(0.0f);
-    UNROLL for (int k = 0; k < 6; ++k) {
-        if (!sheet_has(k)) continue;
-        int j = o + forward_offset(k);
-        real scale = spring_scale(k, o);
-        SpringShare spring =
-            spring_share(sheet_curve(k), load3(plane_q, j) - q, load3(plane_t, j) - t, sheet_rest(k));
-        energy = energy + scale * spring.energy;
-        store3(plane_force + 3 * k, o, spring.force * scale);
-        store6(plane_spring + 6 * k, o, plus_scaled(symmetric_diagonal(real(0.0f)), spring.block, scale));
-        taut = taut + choose(magnitude(spring.multiplier * scale) > 0.0f, real(1.0f), real(0.0f));
-    }
-    if (!in_halo()) store(plane_active, o, taut);
-    sums[0] = sums[0] + energy;
+    return spring_share(sheet_curve(k), load3(plane_q, j) - load3(plane_q, i), load3(plane_t, j) - load3(plane_t, i),
+                        sheet_rest(k), scale);
 }
-
-// The coupling along a row (k = 0) or a column (k = 2) with the bend springs over it.
-KERNEL Symmetric folded_block(int k, int o)
+KERNEL real counted_taut(SpringShare spring)
 {
-    Symmetric b = load6(plane_spring + 6 * k, o);
-    if (!has_bend()) return b;
-    int bend_plane = k == 0 ? plane_spring + 24 : plane_spring + 30;
-    b = plus_scaled(b, load6(bend_plane, o), real(2.0f));
-    return plus_scaled(b, load6(bend_plane, o - forward_offset(k)), real(2.0f));
-}
-KERNEL Symmetric coupling_block(int k, int o)
-{
-    if (k == 1 || k == 3 || exact_bend()) return load6(plane_spring + 6 * k, o);
-    return folded_block(k, o);
+    return choose(magnitude(spring.multiplier) > 0.0f, real(1.0f), real(0.0f));
 }
 
 // The largest force of a constraint at a node, N.
@@ -62,72 +39,101 @@ KERNEL void sheet_multipliers(int o)
             int j = side == 0 ? o + forward_offset(k) : o - forward_offset(k), first = side == 0 ? o : j;
             vec3 d = load3(plane_q, j) + load3(plane_t, j) - x;
             real length2 = dot3(d, d);
-            SpringState state = limited_spring(sheet_curve(k), length2, inverse_sqrt(length2), sheet_rest(k));
+            SpringState state = spring_state(sheet_curve(k), length2, inverse_sqrt(length2), sheet_rest(k));
             real scale = spring_scale(k, first);
             most = largest(magnitude(state.multiplier * scale), most);
         }
     set_multiplier(o, choose(scalar(scalar_idle) > 0.0f, real(0.0f), most));
 }
 
-// Forces and the operator of a node from its springs.
+// Forces and the operator of a node from its springs. A spring is computed at both of its ends: that costs less than to
+// hand over what it has to say, and a force is the exact opposite at the other end. It is counted where it begins.
 KERNEL void sheet_gather(int o)
 {
     vec3 q = load3(plane_q, o), t = load3(plane_t, o);
     real mass = load(plane_mass, o);
     mask is_free = mass > 0.0f;
     vec3 ahead = t - load3(plane_y, o);
-    vec3 r = ahead * (real(0.0f) - mass);
-    UNROLL for (int k = 0; k < 6; ++k) {
-        if (!sheet_has(k)) continue;
-        r = r + load3(plane_force + 3 * k, o) - load3(plane_force + 3 * k, o - forward_offset(k));
-    }
     Contact contact = contact_at(o, q, t);
-    r = r + contact.force;
+    vec3 r = contact.force - ahead * mass;
     Symmetric row_sum = plus(symmetric_diagonal(mass), contact.stiffness);
     Symmetric diagonal = row_sum;
+    real energy = real(0.0f), taut = real(0.0f);
     UNROLL for (int k = 0; k < 4; ++k) {
-        if (!sheet_has(k)) continue;
-        int j = o + forward_offset(k), i = o - forward_offset(k);
-        mask free_j = load(plane_mass, j) > 0.0f;
-        real held_j = choose(free_j, real(0.0f), real(1.0f));
-        real held_i = choose(load(plane_mass, i) > 0.0f, real(0.0f), real(1.0f));
-        Symmetric to_j = coupling_block(k, o), to_i = coupling_block(k, i);
+        int step = forward_offset(k), j = o + step, i = o - step;
+        Symmetric to_j = symmetric_diagonal(real(0.0f)), to_i = to_j;
+        if (sheet_has(k)) {
+            SpringShare onward = sheet_spring(k, o, j, spring_scale(k, o));
+            SpringShare back = sheet_spring(k, o, i, spring_scale(k, i));
+            r = r + onward.force + back.force;
+            energy = energy + onward.energy;
+            taut = taut + counted_taut(onward);
+            to_j = onward.block;
+            to_i = back.block;
+        }
+        mask coupled = both(is_free, load(plane_mass, j) > 0.0f);
+        if (has_bend() && (k == 0 || k == 2)) {
+            int bend = k == 0 ? 4 : 5;
+            SpringShare onward = sheet_spring(bend, o, j + step, spring_scale(bend, o));
+            SpringShare back = sheet_spring(bend, o, i - step, spring_scale(bend, i - step));
+            Symmetric over = sheet_spring(bend, i, j, spring_scale(bend, i)).block;
+            r = r + onward.force + back.force;
+            energy = energy + onward.energy;
+            taut = taut + counted_taut(onward);
+            Symmetric folded_j = plus_scaled(to_j, plus(onward.block, over), real(2.0f));
+            if (exact_bend()) {
+                store6(plane_bend + 3 * k, o, onward.block);
+                store6(plane_fold + 3 * k, o, where_else_zero(coupled, folded_j));
+                diagonal = plus(plus(diagonal, onward.block), back.block);
+            } else {
+                to_j = folded_j;
+                to_i = plus_scaled(to_i, plus(back.block, over), real(2.0f));
+            }
+        }
         diagonal = plus(plus(diagonal, to_j), to_i);
         // A coupling to a pinned node is a support of this one.
+        real held_j = choose(load(plane_mass, j) > 0.0f, real(0.0f), real(1.0f));
+        real held_i = choose(load(plane_mass, i) > 0.0f, real(0.0f), real(1.0f));
         row_sum = plus_scaled(plus_scaled(row_sum, to_j, held_j), to_i, held_i);
-        mask coupled = both(is_free, free_j);
         store6(plane_block + 6 * k, o, where_else_zero(coupled, to_j));
-        if (exact_bend() && k != 1 && k != 3)
-            store6(plane_fold + 3 * k, o, where_else_zero(coupled, folded_block(k, o)));
     }
-    if (exact_bend())
-        UNROLL for (int k = 4; k < 6; ++k)
-            diagonal = plus(plus(diagonal, load6(plane_spring + 6 * k, o)),
-                            load6(plane_spring + 6 * k, o - forward_offset(k)));
+    store(plane_active, o, taut);
     store6(plane_row_sum, o, where_else_zero(is_free, row_sum));
     store6(plane_factor, o, where_else_zero(is_free, factored(diagonal, mass)));
     store3(plane_r, o, choose(is_free, r, vec3(real(0.0f), real(0.0f), real(0.0f))));
-    sums[0] = sums[0] + 0.5f * mass * dot3(ahead, ahead);
-    sums[1] = sums[1] + choose(is_free, contact.energy, real(0.0f));
+    sums[0] = sums[0] + energy;
+    sums[1] = sums[1] + 0.5f * mass * dot3(ahead, ahead);
+    sums[2] = sums[2] + choose(is_free, contact.energy, real(0.0f));
+}
+
+// B (x_i - x_j) of the coupling from a node to its forward neighbour k; j is left with the negative of it.
+KERNEL vec3 coupling_force(int blocks, int k, int x, int o)
+{
+    return product(load6(blocks, o), load3(x, o) - load3(x, o + forward_offset(k)));
+}
+
+// (A x) of a node, from the forces of the couplings that lead ahead from it, and of those that come from behind.
+KERNEL vec3 sum_of_forces(int x, int o, vec3 ahead[4], vec3 behind[4])
+{
+    vec3 y = product(load6(plane_row_sum, o), load3(x, o));
+    UNROLL for (int k = 0; k < 4; ++k) y = y + ahead[k] - behind[k];
+    return y;
 }
 
 // (A x) of a node; vectors are 0 at pinned nodes and beyond the border.
 KERNEL vec3 row_product(int x, int o)
 {
-    vec3 own = load3(x, o);
-    vec3 y = plus_product(vec3(real(0.0f), real(0.0f), real(0.0f)), load6(plane_row_sum, o), own);
+    vec3 ahead[4], behind[4];
     UNROLL for (int k = 0; k < 4; ++k) {
-        int j = o + forward_offset(k), i = o - forward_offset(k);
-        y = plus_product(y, load6(plane_block + 6 * k, o), own - load3(x, j));
-        y = plus_product(y, load6(plane_block + 6 * k, i), own - load3(x, i));
+        ahead[k] = coupling_force(plane_block + 6 * k, k, x, o);
+        behind[k] = coupling_force(plane_block + 6 * k, k, x, o - forward_offset(k));
     }
+    vec3 y = sum_of_forces(x, o, ahead, behind);
     if (exact_bend()) {
         vec3 bend = vec3(real(0.0f), real(0.0f), real(0.0f));
-        UNROLL for (int k = 4; k < 6; ++k) {
-            int j = o + forward_offset(k), i = o - forward_offset(k);
-            bend = plus_product(bend, load6(plane_spring + 6 * k, o), own - load3(x, j));
-            bend = plus_product(bend, load6(plane_spring + 6 * k, i), own - load3(x, i));
-        }
+        UNROLL for (int k = 4; k < 6; ++k)
+            bend = bend + coupling_force(plane_bend + 6 * (k - 4), k, x, o) -
+                   coupling_force(plane_bend + 6 * (k - 4), k, x, o - forward_offset(k));
         y = y + bend * choose(load(plane_mass, o) > 0.0f, real(1.0f), real(0.0f));
     }
     return y;

@@ -7,6 +7,7 @@
 
 struct LimitCurve
 {
+    int kind;         // 0; 1: k alone is not zero, a plain spring; 2: K alone, a thread that does not give
     real below;       // k, N/m
     real limit;       // s
     real beyond;      // K, N/m
@@ -43,4 +44,37 @@ LAW SpringState limited_spring(LimitCurve curve, real length2, real inverse_leng
     state.energy = 0.5f * (curve.below * extension * extension + curve.beyond * over * over +
                            curve.compressed * under * under);
     return state;
+}
+
+// The same for the kinds 1 and 2.
+LAW SpringState plain_spring(LimitCurve curve, real length2, real inverse_length, real rest_length)
+{
+    real extension = length2 * inverse_length - rest_length;
+    SpringState state;
+    state.multiplier = real(0.0f);
+    state.force = curve.below * extension;
+    state.along = curve.below;
+    state.across = largest(state.force * inverse_length, real(0.0f));
+    state.energy = 0.5f * state.force * extension;
+    return state;
+}
+
+LAW SpringState taut_spring(LimitCurve curve, real length2, real inverse_length, real rest_length)
+{
+    real over = largest(length2 * inverse_length - rest_length, real(0.0f));
+    SpringState state;
+    state.multiplier = curve.beyond * over;
+    state.force = state.multiplier;
+    state.along = curve.beyond;
+    state.across = state.force * inverse_length;
+    state.energy = 0.5f * state.force * over;
+    return state;
+}
+
+// By the kind of the curve, which is the same for all springs of a class: two of them need but a part of the law.
+LAW SpringState spring_state(LimitCurve curve, real length2, real inverse_length, real rest_length)
+{
+    if (curve.kind == 2) return taut_spring(curve, length2, inverse_length, rest_length);
+    if (curve.kind == 1) return plain_spring(curve, length2, inverse_length, rest_length);
+    return limited_spring(curve, length2, inverse_length, rest_length);
 }

@@ -20,6 +20,18 @@ void append_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t ste
         append_constraint_step(cloth, index, step, parity, calls);
 }
 
+/// Counts for every guarded call those after it that the same scalar guards: skipping does not change it, so
+/// that a loop that has ended is left in one go.
+void count_guarded(std::vector<Call>& calls)
+{
+    for (std::size_t k = calls.size(); k-- > 1;) {
+        const Call& after = calls[k];
+        Call& call = calls[k - 1];
+        if (call.guard != Guard::none && call.guard == after.guard && call.cloth == after.cloth)
+            call.guarded_after = after.guarded_after + 1;
+    }
+}
+
 }  // namespace
 
 std::uint32_t append_frame(std::span<const ClothModel> cloths, std::uint32_t steps, std::uint32_t parity,
@@ -30,6 +42,7 @@ std::uint32_t append_frame(std::span<const ClothModel> cloths, std::uint32_t ste
     for (std::uint32_t step = 0; step < steps; ++step, parity ^= 1)
         for (std::uint32_t c = 0; c < cloths.size(); ++c) append_step(cloths[c], c, step, parity, calls);
     append_measures(cloths, parity, steps - 1, calls);
+    count_guarded(calls);
     return parity;
 }
 

@@ -10,8 +10,9 @@
 
 namespace pliant {
 
-/// Appends one frame: `steps` steps of every cloth by the method and solver that it was made for, starting from the
-/// state copy `parity`, then the measures of the state that they reach. Returns the parity of that state.
+/// Appends one frame: `steps` steps of every cloth by the method and solver that it was made for, starting
+/// from the state copy `parity`, then the measures of the state that they reach. Returns the parity of that
+/// state.
 std::uint32_t append_frame(std::span<const ClothModel> cloths, std::uint32_t steps, std::uint32_t parity,
                            std::vector<Call>& calls);
 

@@ -89,7 +89,7 @@ private:
     /// Energy, forces and operator at the displacement t.
     void evaluate(Guard guard, std::uint32_t first_look = 0)
     {
-        add(on_mesh_ ? Pass::mesh_springs : Pass::sheet_springs, guard);
+        if (on_mesh_) add(Pass::mesh_springs, guard);
         add(on_mesh_ ? Pass::mesh_gather : Pass::sheet_gather, guard, 0, first_look);
     }
 
@@ -193,8 +193,8 @@ void append_multipliers(const ClothModel& cloth, std::uint32_t index, std::uint3
                      index, parity, 0});
 }
 
-void append_constraint_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step, std::uint32_t parity,
-                            std::vector<Call>& calls)
+void append_constraint_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step,
+                            std::uint32_t parity, std::vector<Call>& calls)
 {
     append_wind(cloth, index, step, parity, calls);
     append_attachments(cloth, index, step, parity, calls);

@@ -11,8 +11,8 @@
 namespace pliant {
 
 /// Appends one implicit step of one cloth, from the state copy `parity` to the other.
-void append_constraint_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step, std::uint32_t parity,
-                            std::vector<Call>& calls);
+void append_constraint_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step,
+                            std::uint32_t parity, std::vector<Call>& calls);
 
 /// The same for ACAD: a step of springs alone, made good where it stretches a spring beyond the threshold.
 void append_acad_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step, std::uint32_t parity,

@@ -5,7 +5,7 @@
 namespace pliant {
 
 void append_paper_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step, std::uint32_t parity,
-                 std::vector<Call>& calls)
+                       std::vector<Call>& calls)
 {
     const auto add = [&](Pass pass, Guard guard = Guard::none, std::uint32_t detail = 0) {
         calls.push_back({pass, index, parity, step, 0, detail, guard});

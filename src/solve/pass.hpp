@@ -61,6 +61,8 @@ struct Call {
     std::uint32_t level = 0;   ///< of the hierarchy, 0 being the cloth
     std::uint32_t detail = 0;  ///< see `detail_of`
     Guard guard = Guard::none;
+    std::uint32_t guarded_after =
+        0;  ///< calls right after this one that are skipped when it is, see append_frame
 };
 
 /// The planes and the weight of a smoothing step: it reads copy `source` (0 or 1) of the correction, and
@@ -77,10 +79,9 @@ struct SumSlots {
 constexpr SumSlots sum_slots_of(Pass pass)
 {
     switch (pass) {
-        case Pass::mesh_springs:
-        case Pass::sheet_springs: return {sum_spring_energy, 1};
-        case Pass::mesh_gather:
-        case Pass::sheet_gather: return {sum_node_energy, 2};  // and of contact
+        case Pass::mesh_springs: return {sum_spring_energy, 1};
+        case Pass::mesh_gather: return {sum_node_energy, 2};     // and of contact
+        case Pass::sheet_gather: return {sum_spring_energy, 3};  // and both of these
         case Pass::mesh_apply:
         case Pass::linear_apply: return {sum_curvature, 1};
         case Pass::linear_begin:
@@ -102,6 +103,12 @@ constexpr SumSlots sum_slots_of(Pass pass)
     }
 }
 constexpr std::uint32_t sum_slot_count = sum_slots;
+
+/// Sums are taken by one tree, whatever runs a pass: over groups of this many columns (or edges, or rows) by
+/// halves, which leaves the parts; then over the parts, every 256th in a lane, and the lanes by halves.
+constexpr int sum_columns = 64;
+constexpr int sum_lanes = 256;
+constexpr int most_sums = 3;  ///< of one pass
 constexpr std::uint32_t solver_scalar_count = scalar_count;
 
 /// A sequence of calls with an identity, so that a backend can record it once and replay it.

@@ -7,6 +7,7 @@
 
 #include "backend/cpu/jobs.hpp"
 #include "backend/cpu/kernels.hpp"
+#include "backend/cpu/team.hpp"
 #include "backend/host/plain_cloth.hpp"
 #include "backend/host/solver_state.hpp"
 #include "backend/pass_runner.hpp"
@@ -17,10 +18,6 @@ namespace {
 using cpu::Kernels;
 
 constexpr std::size_t spring_pack = 16;  ///< springs are divided and padded in whole packs of the widest kind
-
-/// Nodes or springs that make another thread worth waking, where the number of threads is Pliant's own
-/// choice; who asks for a number gets it.
-constexpr std::size_t least_work_per_thread = 1024;
 
 std::size_t round_up(std::size_t n, std::size_t unit) { return (n + unit - 1) / unit * unit; }
 
@@ -73,7 +70,6 @@ struct Work {
     const StepConstants<float>* constants = nullptr;
     std::span<const Laws<float>::Collider> colliders;
     const SolverContext<float>* solver = nullptr;
-    bool in_window = false;  ///< sheet_gather, and the sheet_springs before it
 
     Work(const Call& c, CpuCloth& target, const Kernels& k, const StepConstants<float>& values,
          const SolverConstants<float>& solver_values, std::span<const Laws<float>::Collider> shapes)
@@ -104,7 +100,8 @@ struct Work {
     std::size_t part_count(std::size_t threads, std::size_t least_work) const
     {
         const std::size_t worthwhile = std::max<std::size_t>(1, size * weight / least_work);
-        return std::min({threads, worthwhile, std::max<std::size_t>(1, size / multiple)});
+        return std::min<std::size_t>(
+            {threads, worthwhile, std::max<std::size_t>(1, size / multiple), cpu::Team::most_parts});
     }
 
     void part(std::size_t index, std::size_t count) const
@@ -118,7 +115,7 @@ struct Work {
         else if (unit == Unit::springs)
             springs(begin, end);
         else if (unit == Unit::solver)
-            solve(index, begin, end);
+            kernels->solve(*solver, *call, static_cast<int>(begin), static_cast<int>(end));
         else if (unit == Unit::single)
             cloth->solver.run(*call, *solver, begin, end);
         else
@@ -126,13 +123,6 @@ struct Work {
     }
 
 private:
-    void solve(std::size_t part, std::size_t begin, std::size_t end) const
-    {
-        SolverContext<float> context = *solver;
-        if (in_window) context.window = cloth->solver.window(part);
-        kernels->solve(context, *call, static_cast<int>(begin), static_cast<int>(end));
-    }
-
     void rows(std::size_t begin, std::size_t end) const
     {
         PlainCloth<float>& plain = cloth->plain;
@@ -170,7 +160,7 @@ public:
     CpuRunner(std::span<const ClothModel> models, const SimulationOptions& options)
         : kernels_(cpu::choose_kernels(options.instruction_set)),
           jobs_(options.job_system),
-          least_work_(options.threads > 0 ? 1 : least_work_per_thread)
+          threads_are_asked_for_(options.threads > 0)
     {
         if (!jobs_) {
             own_jobs_ = cpu::make_job_system(options.threads);
@@ -192,31 +182,12 @@ public:
             if (!input.attached.empty()) constants_[c].attached = input.attached[c];
             solver_constants_[c] = make_solver_constants<float>(model, input.step_length);
         }
-        std::uint32_t known_index = ~0u;
-        for (const Call& call : program.calls) {
-            if (cloths_[call.cloth].solver.skips(call)) continue;
-            if (call.index != known_index) {
-                colliders_.clear();
-                for (const PlacedCollider& placed : input.colliders_at(call.index))
-                    colliders_.push_back(make_collider<float>(placed));
-                known_index = call.index;
-            }
-            const bool in_window =
-                call.pass == Pass::sheet_springs || call.pass == Pass::sheet_gather
-                    ? cloths_[call.cloth].solver.evaluates_in_windows(solver_constants_[call.cloth])
-                    : false;
-            if (in_window && call.pass == Pass::sheet_springs)
-                continue;  // runs with the sheet_gather after it
-            const auto start = std::chrono::steady_clock::now();
-            Work work(call, cloths_[call.cloth], kernels_, constants_[call.cloth],
-                      solver_constants_[call.cloth], colliders_);
-            work.in_window = in_window;
-            if (in_window)
-                cloths_[call.cloth].solver.reserve_windows(work.part_count(thread_count(), least_work_));
-            run(work);
-            const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
-            clock_.add(call.pass, spent.count());
-        }
+        // A host's threads are lent for a task at a time; Pliant's own stay together for the frame.
+        together_ = own_jobs_ && thread_count() > 1 && is_worth_threads();
+        if (together_)
+            team_.gather(*jobs_, thread_count(), [&] { run_calls(program, input); });
+        else
+            run_calls(program, input);
     }
     void read(std::uint32_t cloth, Resource resource, std::uint32_t parity,
               std::vector<float>& values) override
@@ -238,25 +209,66 @@ public:
     unsigned thread_count() const override { return std::max(1u, jobs_->thread_count()); }
 
 private:
+    void run_calls(const Program& program, const FrameInput& input)
+    {
+        std::uint32_t known_index = ~0u;
+        auto time = std::chrono::steady_clock::now();
+        for (std::size_t k = 0; k < program.calls.size(); ++k) {
+            const Call& call = program.calls[k];
+            CpuCloth& cloth = cloths_[call.cloth];
+            if (cloth.solver.skips(call)) {
+                k += call.guarded_after;
+                continue;
+            }
+            if (call.index != known_index) {
+                colliders_.clear();
+                for (const PlacedCollider& placed : input.colliders_at(call.index))
+                    colliders_.push_back(make_collider<float>(placed));
+                known_index = call.index;
+            }
+            Work work(call, cloth, kernels_, constants_[call.cloth], solver_constants_[call.cloth],
+                      colliders_);
+            run(work);
+            const auto now = std::chrono::steady_clock::now();
+            clock_.add(call.pass, std::chrono::duration<double, std::milli>(now - time).count());
+            time = now;
+        }
+    }
+
     void run(const Work& work)
     {
         struct Context {
             const Work& work;
-            std::size_t count;
-        } context{work, work.part_count(thread_count(), least_work_)};
+            unsigned count;
+        } context{work, static_cast<unsigned>(work.part_count(thread_count(), least_work()))};
         if (context.count == 1) return work.part(0, 1);
-        jobs_->run(
-            static_cast<unsigned>(context.count),
-            [](void* pointer, unsigned index) {
-                const auto& shared = *static_cast<const Context*>(pointer);
-                shared.work.part(index, shared.count);
-            },
-            &context);
+        const auto task = [](void* pointer, unsigned index) {
+            const auto& shared = *static_cast<const Context*>(pointer);
+            shared.work.part(index, shared.count);
+        };
+        if (together_)
+            team_.run(context.count, task, &context);
+        else
+            jobs_->run(context.count, task, &context);
     }
+
+    bool is_worth_threads() const
+    {
+        const auto work = [](const CpuCloth& cloth) {
+            return std::max<std::size_t>(cloth.plain.model.node_count(), cloth.plain.model.springs.size());
+        };
+        return std::any_of(cloths_.begin(), cloths_.end(),
+                           [&](const CpuCloth& cloth) { return work(cloth) >= 2 * least_work(); });
+    }
+    /// Nodes or springs that make another thread worth waking: for who asks for a number of threads, hardly
+    /// any.
+    std::size_t least_work() const { return threads_are_asked_for_ ? 64 : together_ ? 512 : 1024; }
 
     const Kernels& kernels_;
     JobSystem* jobs_;
-    std::size_t least_work_;
+    bool threads_are_asked_for_;
+    bool together_ = false;  ///< in this frame
+    cpu::Team team_;
     std::unique_ptr<JobSystem> own_jobs_;
     std::vector<CpuCloth> cloths_;
     std::vector<StepConstants<float>> constants_;

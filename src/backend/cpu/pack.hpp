@@ -152,20 +152,6 @@ struct Lanes<Pack<W>> {
             for (int k = 0; k < half; ++k) lanes[k] += lanes[k + half];
         return lanes[0];
     }
-    /// Fused where the instruction set has it: the constraint solver's results may differ between instruction
-    /// sets.
-    static T multiply_add(T a, T b, T c)
-    {
-#if defined(__AVX512F__)
-        if constexpr (W == 16)
-            return (typename T::Lanes)_mm512_fmadd_ps((__m512)a.lanes, (__m512)b.lanes, (__m512)c.lanes);
-#endif
-#if defined(__FMA__)
-        if constexpr (W == 8)
-            return (typename T::Lanes)_mm256_fmadd_ps((__m256)a.lanes, (__m256)b.lanes, (__m256)c.lanes);
-#endif
-        return a * b + c;
-    }
 };
 
 }  // namespace pliant

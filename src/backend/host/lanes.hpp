@@ -21,7 +21,6 @@ struct Lanes {
     static T first(T a) { return a; }
     static bool first_lanes(int number) { return number > 0; }
     static T sum(T a) { return a; }
-    static T multiply_add(T a, T b, T c) { return a * b + c; }
 };
 
 /// One vector, and one collider, for all lanes of T.

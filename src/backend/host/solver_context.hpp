@@ -14,6 +14,7 @@ template <class Number>
 struct SolverConstants {
     /// As LimitCurve of laws/limit.law.glsl.
     struct Curve {
+        int kind = 0;
         Number below{}, limit{}, beyond{}, compressed{}, damping{};
     };
     Number dt{}, inverse_dt{}, decay{}, thickness{};
@@ -38,10 +39,6 @@ struct NumberPlanes {
     Number *x = nullptr, *y = nullptr, *z = nullptr;
 };
 
-/// Rows of a sheet that sheet_springs and sheet_gather work on together, and numbers of a plane of them.
-constexpr int window_rows = 8;
-constexpr std::ptrdiff_t window_size(int stride) { return std::ptrdiff_t{stride} * (window_rows + 3); }
-
 template <class Number>
 struct SolverContext {
     Number* arena = nullptr;
@@ -50,7 +47,6 @@ struct SolverContext {
     Number* scalars = nullptr;
     Number* parts = nullptr;  ///< sums of segments, a row for each slot
     int part_stride = 0;
-    Number* window = nullptr;  ///< of a part of sheet_springs and sheet_gather that run as one, else null
     const int* part_counts = nullptr;  ///< by slot
     int bottom_base = 0, border_rows = 0, pad = 0;
     NumberPlanes<Number> position, velocity, next_position, next_velocity, external_force;

@@ -18,7 +18,8 @@ struct SolverKernels {
     using Number = typename Lanes<T>::Number;
     using Context = SolverContext<Number>;
 #include "laws/laws_of_type.inl"
-    static real multiply_add(real a, real b, real c) { return Lanes<T>::multiply_add(a, b, c); }
+    /// Rounded twice: fused, it would give other bits where an instruction set or a device has no such thing.
+    static real multiply_add(real a, real b, real c) { return a * b + c; }
 
     // --- what the kernels' text calls ---
 
@@ -29,7 +30,7 @@ struct SolverKernels {
     const Context context;  // by value: what a kernel knows stays in registers, whatever it writes
     const SolverConstants<Number> constants;
     SolverLevel level, finer;
-    T sums[2];
+    T sums[most_sums];
 
     SolverKernels(const Context& c, const Call& call)
         : context(c),
@@ -38,10 +39,8 @@ struct SolverKernels {
           finer(c.levels[call.level > 0 ? call.level - 1 : 0]),
           base_(c.arena + level.base),
           finer_base_(c.arena + finer.base),
-          spring_base_(c.arena + level.base + Distance{plane_spring} * level.size),
           size_(level.size),
           finer_size_(finer.size),
-          spring_size_(level.size),
           detail_(call.detail),
           is_cloth_(call.level == 0),
           finer_is_cloth_(call.level == 1)
@@ -51,13 +50,8 @@ struct SolverKernels {
     // Planes are addressed by pointers and their distance, three from one: that is what the processor does
     // for nothing.
     using Distance = decltype(static_cast<Number*>(nullptr) - static_cast<Number*>(nullptr));
-    Number* at(int plane, int o) const
-    {
-        return plane >= plane_spring ? spring_base_ + ((plane - plane_spring) * spring_size_ + o)
-                                     : base_ + (plane * size_ + o);
-    }
+    Number* at(int plane, int o) const { return base_ + (plane * size_ + o); }
     const Number* finer_at(int plane, int o) const { return finer_base_ + (plane * finer_size_ + o); }
-    Distance distance(int plane) const { return plane >= plane_spring ? spring_size_ : size_; }
     real load(int plane, int o) const { return Lanes<T>::load(at(plane, o)); }
     void store(int plane, int o, real a) const { Lanes<T>::store(at(plane, o), a); }
     template <auto load_one>
@@ -72,20 +66,20 @@ struct SolverKernels {
         return {load_one(p), load_one(p + size), load_one(p + 2 * size),
                 load_one(q), load_one(q + size), load_one(q + 2 * size)};
     }
-    vec3 load3(int plane, int o) const { return three<&Lanes<T>::load>(at(plane, o), distance(plane)); }
-    Symmetric load6(int plane, int o) const { return six<&Lanes<T>::load>(at(plane, o), distance(plane)); }
+    vec3 load3(int plane, int o) const { return three<&Lanes<T>::load>(at(plane, o), size_); }
+    Symmetric load6(int plane, int o) const { return six<&Lanes<T>::load>(at(plane, o), size_); }
     static void put3(Number* p, Distance size, real x, real y, real z)
     {
         Lanes<T>::store(p, x);
         Lanes<T>::store(p + size, y);
         Lanes<T>::store(p + 2 * size, z);
     }
-    void store3(int plane, int o, vec3 a) const { put3(at(plane, o), distance(plane), a.x, a.y, a.z); }
+    void store3(int plane, int o, vec3 a) const { put3(at(plane, o), size_, a.x, a.y, a.z); }
     void store6(int plane, int o, Symmetric a) const
     {
         Number* p = at(plane, o);
-        put3(p, distance(plane), a.xx, a.xy, a.xz);
-        put3(p + 3 * distance(plane), distance(plane), a.yy, a.yz, a.zz);
+        put3(p, size_, a.xx, a.xy, a.xz);
+        put3(p + 3 * size_, size_, a.yy, a.yz, a.zz);
     }
     /// Every other node of the finer level, one for each lane.
     vec3 finer_load3(int plane, int o) const
@@ -122,10 +116,16 @@ struct SolverKernels {
     void set_scalar(int k, real a) const { context.scalars[k] = Lanes<T>::first(a); }
     real total(int slot) const
     {
-        double sum = 0;
         const Number* parts = context.parts + slot * context.part_stride;
-        for (int k = 0; k < context.part_counts[slot]; ++k) sum += static_cast<double>(parts[k]);
-        return spread(static_cast<Number>(sum));
+        const int count = context.part_counts[slot];
+        Number lanes[sum_lanes];
+        for (int lane = 0; lane < sum_lanes; ++lane) {
+            lanes[lane] = Number(0);
+            for (int k = lane; k < count; k += sum_lanes) lanes[lane] += parts[k];
+        }
+        for (int width = sum_lanes / 2; width > 0; width /= 2)
+            for (int lane = 0; lane < width; ++lane) lanes[lane] += lanes[lane + width];
+        return spread(lanes[0]);
     }
 
     bool sheet_has(int k) const { return constants.has[sheet_class(k)]; }
@@ -134,7 +134,8 @@ struct SolverKernels {
     LimitCurve class_curve(int k) const
     {
         const auto& c = constants.curves[k];
-        return {spread(c.below), spread(c.limit), spread(c.beyond), spread(c.compressed), spread(c.damping)};
+        return {c.kind,           spread(c.below),      spread(c.limit),
+                spread(c.beyond), spread(c.compressed), spread(c.damping)};
     }
     real sheet_rest(int k) const
     {
@@ -155,10 +156,7 @@ struct SolverKernels {
     real newton_tolerance() const { return spread(constants.newton_tolerance); }
 
     int collider_count() const { return context.collider_count; }
-    Collider collider(int k) const
-    {
-        return spread_collider<Collider, T>(context.colliders[k]);
-    }
+    Collider collider(int k) const { return spread_collider<Collider, T>(context.colliders[k]); }
 
     template <class P>
     static vec3 load_planes(const P& p, int o)
@@ -185,6 +183,7 @@ struct SolverKernels {
     bool is_first_look() const { return is_cloth_ && detail_ == 1; }
     bool is_acad() const { return constants.is_acad; }
     bool acad_has_memory() const { return constants.acad_has_memory; }
+    bool acad_has_compression() const { return constants.acad_below2 > 0; }
     real acad_above2() const { return spread(constants.acad_above2); }
     real acad_below2() const { return spread(constants.acad_below2); }
     real acad_held_above2() const { return spread(constants.acad_held_above2); }
@@ -192,7 +191,6 @@ struct SolverKernels {
     real acad_near_above2() const { return spread(constants.acad_near_above2); }
     real acad_near_below2() const { return spread(constants.acad_near_below2); }
     void set_multiplier(int o, real a) const { Lanes<T>::store(context.multiplier + o, a); }
-    bool in_halo() const { return in_halo_; }
     mask inside_level() const { return inside_; }
 
     int topology(int k) const { return context.topology[k]; }
@@ -272,8 +270,6 @@ struct SolverKernels {
 #include "kernels/mesh.kernel.glsl"
 #include "kernels/paper.kernel.glsl"
 #include "kernels/serial.kernel.glsl"
-#undef KERNEL
-#undef UNROLL
 
     // --- how they run ---
 
@@ -287,14 +283,13 @@ struct SolverKernels {
         using K = SolverKernels;
         switch (pass) {
             case Pass::step_begin: return nodes<&K::step_begin>(pass, begin, end);
-            case Pass::sheet_springs: return nodes<&K::sheet_springs>(pass, begin, end);
-            case Pass::sheet_gather:
-                if (context.window) return evaluate(begin, end);
-                return nodes<&K::sheet_gather>(pass, begin, end);
+            case Pass::sheet_gather: return nodes<&K::sheet_gather>(pass, begin, end);
             case Pass::sheet_coarsen: return cells<&K::sheet_coarsen>(begin, end, level.rows, level.columns);
             case Pass::linear_begin: return nodes<&K::linear_begin>(pass, begin, end);
-            case Pass::level_smooth: return nodes<&K::level_smooth>(pass, begin, end);
-            case Pass::level_residual: return nodes<&K::level_residual>(pass, begin, end);
+            case Pass::level_smooth:
+                return products<&K::level_smooth, &K::leave_smoothed>(pass, source_plane(), begin, end);
+            case Pass::level_residual:
+                return products<&K::level_residual, &K::leave_residual>(pass, source_plane(), begin, end);
             case Pass::sheet_restrict:
                 return cells<&K::sheet_restrict>(begin, end, level.rows, level.columns);
             case Pass::sheet_prolong:
@@ -302,7 +297,8 @@ struct SolverKernels {
             case Pass::linear_jacobi: return nodes<&K::linear_jacobi>(pass, begin, end);
             case Pass::linear_plain: return nodes<&K::linear_plain>(pass, begin, end);
             case Pass::linear_direction: return nodes<&K::linear_direction>(pass, begin, end);
-            case Pass::linear_apply: return nodes<&K::linear_apply>(pass, begin, end);
+            case Pass::linear_apply:
+                return products<&K::linear_apply, &K::leave_applied>(pass, plane_p, begin, end);
             case Pass::linear_update: return nodes<&K::linear_update>(pass, begin, end);
             case Pass::newton_move: return nodes<&K::newton_move>(pass, begin, end);
             case Pass::search_move: return nodes<&K::search_move>(pass, begin, end);
@@ -405,15 +401,12 @@ private:
     {
         const SumSlots slots = sum_slots_of(pass);
         SolverKernels self = *this;
-        for (int segment = begin; segment < end; ++segment) {
-            const int first = segment * segment_columns;
-            const int last = first + segment_columns < count ? first + segment_columns : count;
-            self.sums[0] = self.sums[1] = spread(Number(0));
-            for (int k = first; k < last; ++k) (self.*kernel)(k);
-            for (unsigned k = 0; k < slots.count; ++k)
-                context.parts[int(slots.first + k) * context.part_stride + segment] =
-                    Lanes<T>::sum(self.sums[k]);
-        }
+        for (int segment = begin; segment < end; ++segment)
+            for (int first = segment * segment_columns; first < (segment + 1) * segment_columns;
+                 first += sum_columns)
+                self.summed(slots, first / sum_columns, first,
+                            first + sum_columns < count ? first + sum_columns : count,
+                            [&](int k) { (self.*kernel)(k); });
     }
     template <auto kernel>
     void numbered_nodes(int begin, int end)
@@ -425,32 +418,6 @@ private:
                 first + segment_columns < level.columns ? first + segment_columns : level.columns;
             for (int column = first; column < last; ++column)
                 (this->*kernel)(level_offset(row, column), row * level.columns + column);
-        }
-    }
-
-    /// sheet_springs and sheet_gather at once, a few rows after the others, so that what springs have to say
-    /// to nodes stays in the cache: it is most of what the two passes move. Rows above a block are computed
-    /// again.
-    void evaluate(int begin, int end)
-    {
-        const int halo = 2;
-        for (int first = begin; first < end; first += window_rows) {
-            const int last = first + window_rows < end ? first + window_rows : end;
-            SolverKernels block = *this;
-            block.spring_size_ = window_size(level.stride);
-            block.spring_base_ = context.window + context.pad - level_offset(first - halo, 0);
-            if (first == 0)  // there are no springs above the sheet
-                for (Distance plane = 0; plane < sheet_planes - plane_spring; ++plane)
-                    for (int k = 0; k < halo * level.stride + context.pad; ++k)
-                        context.window[plane * block.spring_size_ + k] = Number(0);
-            block.in_halo_ = true;
-            if (first > 0)
-                block.template nodes<&SolverKernels::sheet_springs>({}, first - halo < 0 ? 0 : first - halo,
-                                                                    first);
-            block.in_halo_ = false;
-            block.template nodes<&SolverKernels::sheet_springs>(sum_slots_of(Pass::sheet_springs), first,
-                                                                last);
-            block.template nodes<&SolverKernels::sheet_gather>(sum_slots_of(Pass::sheet_gather), first, last);
         }
     }
 
@@ -468,12 +435,95 @@ private:
             const int row = segment / per_row, first = segment % per_row * segment_columns;
             const int last =
                 first + segment_columns < level.columns ? first + segment_columns : level.columns;
-            self.sums[0] = self.sums[1] = spread(Number(0));
-            for (int column = first; column < last; column += Lanes<T>::count)
-                (self.*kernel)(level_offset(row, column));
-            for (unsigned k = 0; k < slots.count; ++k)
-                context.parts[int(slots.first + k) * context.part_stride + segment] =
-                    Lanes<T>::sum(self.sums[k]);
+            const int offset = level_offset(row, 0);
+            if (slots.count == 0 || !is_cloth_) {  // nobody reads sums over coarser levels
+                for (int column = first; column < last; column += Lanes<T>::count)
+                    (self.*kernel)(offset + column);
+                continue;
+            }
+            for (int group = first; group < last; group += sum_columns)
+                self.summed(slots, part_of(row, group), group,
+                            group + sum_columns < last ? group + sum_columns : last,
+                            [&](int column) { (self.*kernel)(offset + column); });
+        }
+    }
+    int part_of(int row, int column) const
+    {
+        return row * ((level.columns + sum_columns - 1) / sum_columns) + column / sum_columns;
+    }
+    /// A group of sum_columns, of which there may be fewer or none left, and the part of the sums that it
+    /// makes.
+    template <class Function>
+    KERNEL void summed(SumSlots slots, int part, int first, int last, const Function& kernel)
+    {
+        constexpr int packs = sum_columns / Lanes<T>::count;
+        T left[most_sums][packs];
+        for (int k = 0; k < packs; ++k) {
+            for (T& sum : sums) sum = spread(Number(0));
+            const int column = first + k * Lanes<T>::count;
+            if (column < last) kernel(column);
+            for (int slot = 0; slot < most_sums; ++slot) left[slot][k] = sums[slot];
+        }
+        for (unsigned slot = 0; slot < slots.count; ++slot) {
+            T* values = left[slot];
+            for (int width = packs / 2; width > 0; width /= 2)
+                for (int k = 0; k < width; ++k) values[k] = values[k] + values[k + width];
+            if (part < context.part_counts[slots.first + slot])
+                context.parts[int(slots.first + slot) * context.part_stride + part] =
+                    Lanes<T>::sum(values[0]);
+        }
+    }
+
+    /// A pass that begins with what the operator makes of a vector. The force of a coupling is computed once:
+    /// the row that it leads to finds it in the row before, and takes it with the other sign, as
+    /// sum_of_forces says.
+    template <auto kernel, auto leave>
+    void products(Pass pass, int x, int begin, int end)
+    {
+        if (Lanes<T>::count == 1 || level.columns > segment_columns || exact_bend())
+            return nodes<kernel>(pass, begin, end);
+        constexpr int pad = 16, kinds = 12;  // four couplings of three coordinates
+        constexpr int pitch = segment_columns + 2 * pad;
+        Number forces[2 * kinds * pitch];
+        for (int kind = 0; kind < 2 * kinds; ++kind)
+            for (int k = 0; k < pad; ++k)
+                forces[kind * pitch + k] = forces[kind * pitch + pad + level.columns + k] = Number(0);
+        const auto row_of = [&](int row) { return forces + (row & 1) * kinds * pitch + pad; };
+        SolverKernels self = *this;
+        const auto make_forces = [&](int row) {
+            Number* to = row_of(row);
+            for (int column = 0, o = level_offset(row, 0); column < level.columns;
+                 column += Lanes<T>::count, o += Lanes<T>::count)
+                UNROLL for (int k = 0; k < 4; ++k)
+                {
+                    const vec3 f = self.coupling_force(plane_block + 6 * k, k, x, o);
+                    put3(to + 3 * k * pitch + column, pitch, f.x, f.y, f.z);
+                }
+        };
+        const SumSlots slots = is_cloth_ ? sum_slots_of(pass) : SumSlots{};
+        make_forces(begin - 1);
+        for (int row = begin; row < end; ++row) {
+            make_forces(row);
+            const Number *now = row_of(row), *before = row_of(row - 1);
+            const int first = level_offset(row, 0);
+            const auto at_node = [&, now, before, first](int column) {
+                constexpr int shifts[] = {-1, 1, 0, -1};
+                vec3 ahead[4], behind[4];
+                UNROLL for (int k = 0; k < 4; ++k)
+                {
+                    const Number* from = k == 0 ? now : before;
+                    ahead[k] = three<&Lanes<T>::load>(now + 3 * k * pitch + column, pitch);
+                    behind[k] = three<&Lanes<T>::load>(from + 3 * k * pitch + column + shifts[k], pitch);
+                }
+                (self.*leave)(first + column, self.sum_of_forces(x, first + column, ahead, behind));
+            };
+            for (int group = 0; group < level.columns; group += sum_columns) {
+                const int last = group + sum_columns < level.columns ? group + sum_columns : level.columns;
+                if (slots.count > 0)
+                    self.summed(slots, part_of(row, group), group, last, at_node);
+                else
+                    for (int column = group; column < last; column += Lanes<T>::count) at_node(column);
+            }
         }
     }
     template <auto kernel>
@@ -487,12 +537,14 @@ private:
             }
     }
 
-    Number *base_, *finer_base_, *spring_base_;
-    Distance size_, finer_size_, spring_size_;
-    bool in_halo_ = false;
+    Number *base_, *finer_base_;
+    Distance size_, finer_size_;
     mask inside_{};
     unsigned detail_;
     bool is_cloth_, finer_is_cloth_;
 };
+
+#undef KERNEL
+#undef UNROLL
 
 }  // namespace pliant

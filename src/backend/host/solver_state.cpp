@@ -25,11 +25,11 @@ SolverConstants<T> make_solver_constants(const ClothModel& model, double step_le
         const double damping = springs.exists ? model.parameters.spring_damping[k] : 0;
         c.has[k] = springs.exists;
         c.has_damping |= damping > 0;
-        c.curves[k] = {number(springs.below), number(springs.limit), number(springs.beyond),
+        c.curves[k] = {springs.curve_kind(),       number(springs.below),
+                       number(springs.limit),      number(springs.beyond),
                        number(springs.compressed), number(step_length > 0 ? damping / step_length : 0)};
     }
-    c.exact_bend =
-        model.method == Method::constraint && model.limited[2].exists && model.limited[2].beyond > 0;
+    c.exact_bend = model.bends_by_constraints();
     if (model.method == Method::acad && !model.acad_implicit) {
         const AcadOptions& acad = model.acad;
         const bool to_rest = acad.target == AcadTarget::rest;
@@ -57,8 +57,11 @@ SolverConstants<T> make_solver_constants(const ClothModel& model, double step_le
     c.slip = number(newton.friction_speed * step_length);
     c.linear_tolerance = number(newton.linear_tolerance);
     c.newton_tolerance = number(newton.newton_tolerance);
-    // Chebyshev's points on the upper part of the spectrum of D^-1 A, which the smoother has to take care of.
-    constexpr double greatest = 2.5, least = greatest / 4;
+    // Chebyshev's points on the upper part of the spectrum of D^-1 A, which the smoother has to take care of:
+    // the higher its degree, the larger the part that it can. Measured by V-cycles (docs/performance.md).
+    constexpr double greatest = 2.5;
+    constexpr std::uint32_t high_degree = 5;
+    const double least = greatest / (newton.smoothing < high_degree ? 8 : 32);
     for (std::uint32_t k = 0; k < newton.smoothing; ++k)
         c.relaxations[k] = number(
             1 / (0.5 * (greatest + least) +
@@ -94,6 +97,46 @@ void set_first_numbers(const ClothModel& model, const Hierarchy& hierarchy, T* a
         });
 }
 
+namespace {
+
+/// One for each slot that a cloth's solver reads. Those that share a slot have as many parts.
+std::vector<Pass> summing_passes(const ClothModel& model)
+{
+    if (model.solver == Solver::paper) return {Pass::paper_springs, Pass::paper_apply, Pass::paper_update};
+    std::vector<Pass> passes = {Pass::linear_update};
+    if (model.is_sheet())
+        passes.insert(passes.end(), {Pass::sheet_gather, Pass::linear_apply, Pass::level_smooth});
+    else
+        passes.insert(passes.end(),
+                      {Pass::mesh_springs, Pass::mesh_gather, Pass::mesh_apply, Pass::mesh_smooth});
+    if (model.method == Method::acad && !model.acad_implicit)
+        passes.insert(passes.end(),
+                      {Pass::acad_begin, model.is_sheet() ? Pass::sheet_limits : Pass::mesh_limits});
+    else
+        passes.insert(passes.end(), {Pass::step_begin, Pass::step_end});
+    return passes;
+}
+
+int parts_in(std::size_t columns) { return static_cast<int>((columns + sum_columns - 1) / sum_columns); }
+
+}  // namespace
+
+SumParts::SumParts(const ClothModel& model, const Hierarchy& hierarchy)
+{
+    const SolverLevel& cloth = hierarchy.levels.front();
+    for (const Pass pass : summing_passes(model)) {
+        const SumSlots slots = sum_slots_of(pass);
+        const PassSize size = description_of(pass).size;
+        const ConstraintRows& rows = hierarchy.constraints;
+        const int parts = size == PassSize::edge ? parts_in(static_cast<std::size_t>(cloth.edges))
+                          : size == PassSize::row
+                              ? parts_in(pass == Pass::paper_springs ? rows.springs : rows.constraints)
+                              : cloth.rows * parts_in(static_cast<std::size_t>(cloth.columns));
+        for (std::uint32_t k = 0; k < slots.count; ++k) counts[slots.first + k] = parts;
+        stride = std::max(stride, parts);
+    }
+}
+
 template <class T>
 SolverState<T>::SolverState(const ClothModel& model, const Hierarchy& hierarchy)
     : hierarchy_(&hierarchy), arena_(hierarchy.number_count), scalars_(solver_scalar_count)
@@ -101,19 +144,10 @@ SolverState<T>::SolverState(const ClothModel& model, const Hierarchy& hierarchy)
     if (hierarchy.empty()) return;
     set_first_numbers(model, hierarchy, arena_.data());
     const SolverLevel& cloth = hierarchy.levels.front();
-    Call whole{Pass::step_begin};
-    const std::size_t segments =
-        std::max({size_of(whole), size_of({Pass::paper_springs}), size_of({Pass::mesh_springs})});
-    part_stride_ = static_cast<int>(segments);
-    parts_.assign(segments * sum_slot_count, T(0));
-    part_counts_.assign(sum_slot_count, static_cast<int>(size_of(whole)));
-    if (model.solver == Solver::paper)
-        for (const Pass pass : {Pass::paper_springs, Pass::paper_apply, Pass::paper_update})
-            for (std::uint32_t k = 0; k < sum_slots_of(pass).count; ++k)
-                part_counts_[sum_slots_of(pass).first + k] = static_cast<int>(size_of({pass}));
-    else if (!model.is_sheet())
-        part_counts_[sum_slots_of(Pass::mesh_springs).first] =
-            static_cast<int>(size_of({Pass::mesh_springs}));
+    const SumParts sum_parts(model, hierarchy);
+    part_stride_ = sum_parts.stride;
+    parts_.assign(static_cast<std::size_t>(sum_parts.stride) * sum_slot_count, T(0));
+    part_counts_.assign(sum_parts.counts.begin(), sum_parts.counts.end());
     const NodeLayout layout(static_cast<std::size_t>(cloth.rows), static_cast<std::size_t>(cloth.columns));
     mass_ = AlignedArray<T>(layout.size);
     for (std::size_t i = 0; i < model.node_count(); ++i)
@@ -187,24 +221,6 @@ const SolverContext<T>& SolverState<T>::context(const Call& call, PlainCloth<T>&
     c.colliders = colliders.data();
     c.collider_count = static_cast<int>(colliders.size());
     return c;
-}
-
-template <class T>
-T* SolverState<T>::window(std::size_t part)
-{
-    const auto planes = static_cast<std::size_t>(sheet_planes - plane_spring);
-    return windows_.data() +
-           part * planes * static_cast<std::size_t>(window_size(hierarchy_->levels.front().stride));
-}
-
-template <class T>
-void SolverState<T>::reserve_windows(std::size_t parts)
-{
-    if (parts <= window_count_) return;
-    window_count_ = parts;
-    const auto planes = static_cast<std::size_t>(sheet_planes - plane_spring);
-    windows_ = AlignedArray<T>(parts * planes *
-                               static_cast<std::size_t>(window_size(hierarchy_->levels.front().stride)));
 }
 
 template <class T>

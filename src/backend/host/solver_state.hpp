@@ -1,6 +1,7 @@
 // One cloth's constraint solver on the host: its numbers, and its passes over parts of them.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,14 @@ SolverConstants<T> make_solver_constants(const ClothModel& model, double step_le
 /// What an arena of zeros holds before the first step: the numbers that come from the topology alone.
 template <class T>
 void set_first_numbers(const ClothModel& model, const Hierarchy& hierarchy, T* arena);
+
+/// The parts that the sums of a cloth's solver are left in, by slot.
+struct SumParts {
+    SumParts(const ClothModel& model, const Hierarchy& hierarchy);  ///< of a hierarchy that is not empty
+
+    std::array<int, sum_slot_count> counts{};
+    int stride = 0;  ///< the largest of them
+};
 
 template <class T>
 class SolverState {
@@ -40,16 +49,6 @@ public:
     /// Runs a pass that has one invocation, and by the scalar kernels a part of any other.
     void run(const Call& call, const SolverContext<T>& context, std::size_t begin, std::size_t end) const;
 
-    /// Whether sheet_springs and sheet_gather may run as one: a row fits a segment, and nobody else reads
-    /// what springs have written.
-    bool evaluates_in_windows(const SolverConstants<T>& constants) const
-    {
-        return hierarchy_->levels.front().columns <= segment_columns && !constants.exact_bend;
-    }
-    /// The window of a part.
-    T* window(std::size_t part);
-    void reserve_windows(std::size_t parts);
-
     std::span<const T> scalars() const { return scalars_; }
     std::span<const T> arena() const { return {arena_.data(), hierarchy_->number_count}; }
     const Hierarchy& hierarchy() const { return *hierarchy_; }
@@ -63,8 +62,7 @@ private:
     std::vector<T> scalars_, parts_;
     std::vector<int> part_counts_;
     int part_stride_ = 0;
-    AlignedArray<T> mass_, windows_;
-    std::size_t window_count_ = 0;
+    AlignedArray<T> mass_;
     SolverContext<T> context_;
 };
 

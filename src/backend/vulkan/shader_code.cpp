@@ -1,6 +1,9 @@
 // SPIR-V of the compute passes, embedded at build time: NAME.comp of the folder shaders for each PASS(NAME).
 #include "backend/vulkan/shader_code.hpp"
 
+#include <algorithm>
+#include <set>
+
 namespace pliant::vulkan {
 namespace {
 
@@ -48,9 +51,6 @@ constexpr std::uint32_t solve_reset[] = {
 };
 constexpr std::uint32_t step_begin[] = {
 #include "shaders/step_begin.comp.inc"
-};
-constexpr std::uint32_t sheet_springs[] = {
-#include "shaders/sheet_springs.comp.inc"
 };
 constexpr std::uint32_t sheet_gather[] = {
 #include "shaders/sheet_gather.comp.inc"
@@ -258,6 +258,31 @@ constexpr std::span<const std::uint32_t> codes[] = {
 }  // namespace
 
 std::span<const std::uint32_t> compute_shader(Pass pass) { return codes[static_cast<std::size_t>(pass)]; }
+
+std::vector<std::uint32_t> with_exact_arithmetic(std::span<const std::uint32_t> code)
+{
+    constexpr std::uint32_t header_words = 5, op_decorate = 71, no_contraction = 42;
+    constexpr std::uint32_t first_of_types = 19, last_of_types = 39;
+    constexpr std::uint32_t sums_and_products[] = {129, 131, 133,
+                                                   142};  // OpFAdd, OpFSub, OpFMul, OpVectorTimesScalar
+    std::vector<std::uint32_t> results;
+    std::set<std::uint32_t> decorated;
+    std::size_t types = 0;  // where annotations end
+    for (std::size_t at = header_words; at < code.size(); at += code[at] >> 16) {
+        const std::uint32_t op = code[at] & 0xffff;
+        if (op == op_decorate && code[at + 2] == no_contraction) decorated.insert(code[at + 1]);
+        if (types == 0 && op >= first_of_types && op <= last_of_types) types = at;
+        if (std::find(std::begin(sums_and_products), std::end(sums_and_products), op) !=
+            std::end(sums_and_products))
+            results.push_back(code[at + 2]);
+    }
+    std::vector<std::uint32_t> result(code.begin(), code.begin() + static_cast<std::ptrdiff_t>(types));
+    for (const std::uint32_t id : results)
+        if (decorated.insert(id).second)
+            result.insert(result.end(), {3u << 16 | op_decorate, id, no_contraction});
+    result.insert(result.end(), code.begin() + static_cast<std::ptrdiff_t>(types), code.end());
+    return result;
+}
 
 std::vector<std::uint32_t> with_float_controls(std::span<const std::uint32_t> code, FloatControls controls)
 {

@@ -11,6 +11,10 @@ namespace pliant::vulkan {
 
 std::span<const std::uint32_t> compute_shader(Pass pass);
 
+/// The same module with every sum and product decorated NoContraction. Laws have it from their own text
+/// (`precise`); this gives it to what is written around them.
+std::vector<std::uint32_t> with_exact_arithmetic(std::span<const std::uint32_t> code);
+
 /// Execution modes for 32-bit floats that a device offers (float controls, core since SPIR-V 1.4).
 struct FloatControls {
     bool flush_denormals = false;  ///< DenormFlushToZero: denormals are flushed on every machine

@@ -39,6 +39,7 @@ struct SolverBlock {
     Float4 acad_above_below, acad_near;
     std::uint32_t has_damping = 0, exact_bend = 0, padding_before_has[2]{};
     std::uint32_t has[4]{};
+    std::int32_t curve_kinds[4]{};
     std::int32_t bottom_base = 0, part_stride = 0, padding[2]{};
     std::int32_t part_counts[most_slots]{};
     std::int32_t levels[most_levels][level_numbers]{};
@@ -85,7 +86,8 @@ SolverBuffers::SolverBuffers(const Device& device, const ClothModel& model) : mo
                                       "copy of the solver's scalars");
     std::memcpy(scalar_copy_.mapped, zeros.data(), sizeof zeros);
 
-    const std::vector<float> no_parts(part_stride() * sum_slot_count);
+    const std::vector<float> no_parts(static_cast<std::size_t>(SumParts(model, hierarchy).stride) *
+                                      sum_slot_count);
     parts_ = device_buffer(no_parts.size() * sizeof(float), "parts of sums");
     device.write(parts_, no_parts.data(), no_parts.size() * sizeof(float));
 
@@ -127,33 +129,6 @@ Groups SolverBuffers::groups_of(const Call& call) const
     return groups_on(level.rows, level.columns);
 }
 
-/// One for each slot that this cloth's solver reads. Those that share a slot have as many groups.
-std::vector<Pass> SolverBuffers::summing_passes() const
-{
-    if (model_->solver == Solver::paper) return {Pass::paper_springs, Pass::paper_apply, Pass::paper_update};
-    if (model_->method == Method::acad && !model_->acad_implicit && model_->is_sheet())
-        return {Pass::sheet_springs, Pass::sheet_gather, Pass::linear_apply, Pass::linear_update,
-                Pass::level_smooth,  Pass::acad_begin,   Pass::sheet_limits};
-    if (model_->method == Method::acad && !model_->acad_implicit)
-        return {Pass::mesh_springs, Pass::mesh_gather, Pass::mesh_apply, Pass::linear_update,
-                Pass::mesh_smooth,  Pass::acad_begin,  Pass::mesh_limits};
-    if (model_->is_sheet())
-        return {Pass::sheet_springs, Pass::sheet_gather, Pass::linear_apply, Pass::linear_update,
-                Pass::level_smooth,  Pass::step_begin,   Pass::step_end};
-    return {Pass::mesh_springs, Pass::mesh_gather, Pass::mesh_apply, Pass::linear_update,
-            Pass::mesh_smooth,  Pass::step_begin,  Pass::step_end};
-}
-
-std::size_t SolverBuffers::part_stride() const
-{
-    std::size_t most = 0;
-    for (const Pass pass : summing_passes()) {
-        const Groups groups = groups_of({pass});
-        most = std::max<std::size_t>(most, groups.x * groups.y);
-    }
-    return most;
-}
-
 void SolverBuffers::set_constants(double step_length)
 {
     const Hierarchy& hierarchy = model_->hierarchy;
@@ -165,6 +140,7 @@ void SolverBuffers::set_constants(double step_length)
         const auto& curve = c.curves[k];
         block.curves[k] = {curve.below, curve.limit, curve.beyond, curve.compressed};
         block.has[k] = c.has[k] ? 1 : 0;
+        block.curve_kinds[k] = curve.kind;
     }
     block.curve_damping = {c.curves[0].damping, c.curves[1].damping, c.curves[2].damping};
     std::copy(std::begin(c.relaxations), std::end(c.relaxations), block.relaxations);
@@ -176,13 +152,9 @@ void SolverBuffers::set_constants(double step_length)
     block.has_damping = c.has_damping ? 1 : 0;
     block.exact_bend = c.exact_bend ? 1 : 0;
     block.bottom_base = hierarchy.bottom_base;
-    block.part_stride = static_cast<std::int32_t>(part_stride());
-    for (const Pass pass : summing_passes()) {
-        const SumSlots slots = sum_slots_of(pass);
-        const Groups groups = groups_of({pass});
-        for (std::uint32_t k = 0; k < slots.count; ++k)
-            block.part_counts[slots.first + k] = static_cast<std::int32_t>(groups.x * groups.y);
-    }
+    const SumParts sum_parts(*model_, hierarchy);
+    block.part_stride = sum_parts.stride;
+    std::copy(sum_parts.counts.begin(), sum_parts.counts.end(), block.part_counts);
     for (std::size_t k = 0; k < hierarchy.level_count(); ++k)
         std::memcpy(block.levels[k], &hierarchy.levels[k], sizeof(SolverLevel));
     std::memcpy(constants_.mapped, &block, sizeof block);

@@ -37,8 +37,6 @@ public:
 
 private:
     Groups groups_on(std::int32_t rows, std::int32_t columns) const;
-    std::vector<Pass> summing_passes() const;
-    std::size_t part_stride() const;
 
     const ClothModel* model_;
     Buffer constants_, arena_, scalars_, scalar_copy_, parts_, topology_, multiplier_;

@@ -203,8 +203,8 @@ private:
                                   controls.shaderRoundingModeRTEFloat32 == VK_TRUE};
         for (std::uint32_t p = 0; p < all_passes().size(); ++p) {
             if (is_solver_pass(static_cast<Pass>(p)) && !solved) break;
-            const auto module =
-                device_->make_shader(with_float_controls(compute_shader(static_cast<Pass>(p)), modes));
+            const auto module = device_->make_shader(
+                with_float_controls(with_exact_arithmetic(compute_shader(static_cast<Pass>(p))), modes));
             const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module,
                                                           "main");
             pipelines_.emplace_back(device_->handle(), nullptr,

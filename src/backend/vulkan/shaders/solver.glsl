@@ -28,6 +28,7 @@ layout(set = 0, binding = 18, std140) uniform Solver
     vec4 acad_near;          // above, below; z: is it ACAD, w: does it remember
     bool has_damping, exact_bend;
     bvec4 has;               // classes of springs
+    ivec4 curve_kinds;       // by class
     int bottom_base, part_stride, padding_0, padding_1;
     ivec4 part_counts[4];    // by slot
     ivec4 levels[32 * 6];    // the numbers of SolverLevel, 24 for each
@@ -41,7 +42,7 @@ layout(set = 0, binding = 22, std430) readonly buffer Topology { int topology_en
 layout(set = 0, binding = 23, std430) writeonly buffer Multiplier { float multiplier[]; };  // N, by node
 
 SolverLevel level, finer;
-real sums[2] = real[2](0.0f, 0.0f);
+real sums[3] = real[3](0.0f, 0.0f, 0.0f);
 
 // The same for all invocations of a dispatch.
 bool is_skipped() { return push.guard != 32u && scalars[push.guard] != 0.0f; }
@@ -57,7 +58,7 @@ void find_levels()
     finer = level_at(push.level > 0u ? push.level - 1u : 0u);
 }
 
-real multiply_add(real a, real b, real c) { return fma(a, b, c); }
+real multiply_add(real a, real b, real c) { return a * b + c; }  // rounded twice, as on the host
 #include "kernels/block.kernel.glsl"
 
 int at(int plane, int o) { return level.base + plane * level.size + o; }
@@ -126,7 +127,7 @@ bool sheet_has(int k) { return solver.has[sheet_class(k)]; }
 LimitCurve class_curve(int k)
 {
     vec4 c = solver.curves[k];
-    return LimitCurve(c.x, c.y, c.z, c.w, solver.curve_damping[k]);
+    return LimitCurve(solver.curve_kinds[k], c.x, c.y, c.z, c.w, solver.curve_damping[k]);
 }
 LimitCurve sheet_curve(int k) { return class_curve(sheet_class(k)); }
 real sheet_rest(int k)
@@ -149,6 +150,7 @@ real newton_tolerance() { return solver.tolerances.y; }
 bool is_first_look() { return push.level == 0u && push.detail == 1u; }
 bool is_acad() { return solver.acad_near.z != 0.0f; }
 bool acad_has_memory() { return solver.acad_near.w != 0.0f; }
+bool acad_has_compression() { return solver.acad_above_below.y > 0.0f; }
 real acad_above2() { return solver.acad_above_below.x; }
 real acad_below2() { return solver.acad_above_below.y; }
 real acad_held_above2() { return solver.acad_above_below.z; }
@@ -180,7 +182,6 @@ void node_end(int o, vec3 x, vec3 v)
 
 // No invocation works on padding here, nor on a node twice.
 mask inside_level() { return true; }
-bool in_halo() { return false; }
 
 // What lies by edge on a mesh, and by spring in the paper's solver.
 int topology(int k) { return topology_entries[k]; }

@@ -12,7 +12,7 @@ void leave_sums()
     if (push.level != 0u) return;
     uint lane = gl_LocalInvocationIndex, group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
     for (uint k = 0u; k < push.slot_count; ++k) {
-        group_sums[lane] = k == 0u ? sums[0] : sums[1];
+        group_sums[lane] = sums[k];
         for (uint width = gl_WorkGroupSize.x / 2u; width > 0u; width /= 2u) {
             barrier();
             if (lane < width) group_sums[lane] += group_sums[lane + width];

@@ -1,0 +1,50 @@
+// Threads that stay together for a frame. A frame of the constraint solver is a thousand regions of a few
+// microseconds; handing each of them to a pool costs as much as the work (docs/performance.md). So the pool
+// hands over once: the first thread that comes leads, the others wait at hand, and a region is one store and
+// one load.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <functional>
+
+#include "pliant/simulation.hpp"
+
+namespace pliant::cpu {
+
+class Team {
+public:
+    /// Parts that one region can have.
+    static constexpr unsigned most_parts = 64;
+
+    /// Calls `lead` on one thread of `jobs`, and lets `threads` - 1 others help with the regions that it
+    /// runs. However few of them come, and however late, all is done: nobody is waited for who has not begun.
+    void gather(JobSystem& jobs, unsigned threads, const std::function<void()>& lead);
+
+    /// A region: task(context, 0) ... task(context, count - 1), by whoever is there. Within `gather` alone,
+    /// and by the leader; `count` is at most most_parts.
+    void run(unsigned count, void (*task)(void* context, unsigned index), void* context);
+
+private:
+    void come(const std::function<void()>& lead);
+    void help(unsigned number);
+    /// Takes part `index` of region `region` unless somebody has.
+    bool claim(std::uint32_t region, unsigned index);
+
+    std::atomic<std::uint64_t> open_{0};  ///< number of the region, 32 bits, and its count of parts
+    std::array<std::atomic<std::uint32_t>, most_parts>
+        claimed_{};                      ///< the last region in which each was taken
+    std::atomic<unsigned> finished_{0};  ///< parts that helpers have done
+    std::uint32_t region_ = 0;
+    void (*task_)(void*, unsigned) = nullptr;
+    void* context_ = nullptr;
+
+    std::atomic<bool> led_{false}, ended_{false};
+    std::atomic<unsigned> helpers_{0};
+    std::exception_ptr failure_;
+};
+
+}  // namespace pliant::cpu
