@@ -97,7 +97,8 @@ struct Work {
             multiple = spring_pack;
         } else {
             size = plain.size_of(*call);
-            if (description_of(call->pass).size == PassSize::block) weight = block_size;
+            const PassSize pass_size = description_of(call->pass).size;
+            if (pass_size == PassSize::block || pass_size == PassSize::fan) weight = block_size;
         }
     }
 
@@ -190,16 +191,20 @@ public:
             const ClothModel& model = cloths_[c].plain.model;
             constants_[c] = StepConstants<float>(model, input.step_length);
             if (!input.attached.empty()) constants_[c].attached = input.attached[c];
+            if (!input.goals.empty()) constants_[c].goals = input.goals[c];
             solver_constants_[c] = make_solver_constants<float>(model, input.step_length);
         }
         std::uint32_t known_index = ~0u;
+        Vec3d known_origin;
         for (const Call& call : program.calls) {
             if (cloths_[call.cloth].solver.skips(call)) continue;
-            if (call.index != known_index) {
+            const Vec3d origin = cloths_[call.cloth].plain.model.origin;
+            if (call.index != known_index || origin != known_origin) {
                 colliders_.clear();
                 for (const PlacedCollider& placed : input.colliders_at(call.index))
-                    colliders_.push_back(make_collider<float>(placed));
+                    colliders_.push_back(make_collider<float>(seen_from(placed, origin)));
                 known_index = call.index;
+                known_origin = origin;
             }
             const bool in_window =
                 call.pass == Pass::sheet_springs || call.pass == Pass::sheet_gather
@@ -222,6 +227,11 @@ public:
               std::vector<float>& values) override
     {
         cloths_[cloth].plain.read(resource, parity, values);
+    }
+    std::vector<double> volumes(std::uint32_t cloth) override
+    {
+        const auto& values = cloths_[cloth].plain.body.volumes;
+        return {values.begin(), values.end()};
     }
     std::vector<double> solver_scalars(std::uint32_t cloth) override
     {
