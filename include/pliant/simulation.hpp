@@ -184,6 +184,7 @@ public:
     std::string device_name() const;  ///< the GPU's, or the CPU's with the instruction set
     unsigned thread_count() const;
     std::uint64_t node_count() const;
+    std::size_t body_count() const;  ///< soft bodies among the cloths
     std::uint64_t spring_count() const;
     std::uint64_t triangle_count() const;
 
@@ -200,7 +201,7 @@ public:
     /// A sentence when the scene's step is larger than `stable_step`, else empty.
     std::string stability_warning() const;
 
-    /// The buffers of a cloth on the device, up to date and idle until the next advance(), which submits to
+    /// The buffers of a cloth (of a soft body there are none) on the device, up to date and idle until the next advance(), which submits to
     /// queue 0 of the family; nothing unless the backend is vulkan. Throws Error(device_failure) when the
     /// device is lost. `position` alternates between two buffers, so ask again after every advance().
     std::optional<DeviceBuffers> device_buffers(std::size_t cloth = 0);

@@ -111,7 +111,7 @@ LAW vec3 volume_mean(VolumeRate sums, real inverse_weight)
 
 // Eq. (14) with Phi_t = 0, as a change of velocity: v' = v - q omega w (G - mean) gives 6 V' = 6 V + dt sum G . P v' the
 // value that is wanted. `excess` is 6 (V - V_wanted) before the step; the multiplier itself is 6 q / dt.
-LAW real volume_multiplier(VolumeRate sums, vec3 mean, real excess, real dt, real inverse_dt)
+LAW real volume_multiplier(VolumeRate sums, vec3 mean, real excess, real inverse_dt)
 {
     real mobility = sums.mobility - dot3(mean, sums.pushed);
     real q = (excess * inverse_dt + sums.rate) * inverse_of(mobility);

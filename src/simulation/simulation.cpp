@@ -314,7 +314,8 @@ public:
             measured_springs += models[c].measured_spring_count();
             m.kinetic_energy += totals.kinetic_energy;
             m.elastic_energy += totals.elastic_energy;
-            m.potential_energy += g * totals.height_moment - models[c].mass() * dot(models[c].origin, scene.gravity);
+            m.potential_energy += g * totals.height_moment;
+            if (models[c].is_body()) m.potential_energy -= models[c].mass() * dot(models[c].origin, scene.gravity);
             m.non_finite += static_cast<std::uint64_t>(totals.non_finite);
         }
         m.max_speed = std::sqrt(speed2);
@@ -574,6 +575,7 @@ std::uint64_t Simulation::node_count() const
     for (const ClothModel& model : implementation_->models) sum += model.node_count();
     return sum;
 }
+std::size_t Simulation::body_count() const { return implementation_->report.bodies.size(); }
 std::uint64_t Simulation::spring_count() const { return implementation_->total(&ClothModel::spring_count); }
 std::uint64_t Simulation::triangle_count() const
 {
@@ -621,11 +623,12 @@ std::string Simulation::stability_warning() const
     const bool implicit = uses_solver(scene().method) && scene().solver == Solver::newton_multigrid;
     if (step <= stable || implicit || scene().method == Method::constraint) return {};
     const double frame = 1 / scene().time.frame_rate;
-    return "the step of " + seconds(step) + " exceeds the largest safe one of " + seconds(stable) +
-           ": below the threshold, springs are taken softer, as stiff as this step can carry; for their full "
-           "stiffness use at least " +
-           std::to_string(static_cast<long long>(std::ceil(frame / stable))) +
-           " substeps per frame (time.substeps)";
+    if (scene().method == Method::acad)
+        return "the step of " + seconds(step) + " exceeds the largest safe one of " + seconds(stable) +
+               ": below the threshold, springs are taken softer, as stiff as this step can carry; for their full "
+               "stiffness use at least " +
+               std::to_string(static_cast<long long>(std::ceil(frame / stable))) +
+               " substeps per frame (time.substeps)";
     return "the step of " + seconds(step) + " exceeds the largest safe one of " + seconds(stable) +
            " and the run may diverge: use at least " +
            std::to_string(static_cast<long long>(std::ceil(frame / stable))) +

@@ -35,7 +35,7 @@ void append_measures(std::span<const ClothModel> cloths, std::uint32_t parity, s
         const std::size_t levels = MeasureTree(cloths[c].node_count()).levels.size();
         for (std::uint32_t level = 1; level < levels; ++level)
             calls.push_back({Pass::measure_merge, c, parity, level});
-        if (cloths[c].is_body()) append_volumes(cloths[c], c, parity, calls);
+        if (cloths[c].is_body()) append_volumes(c, parity, calls);
     }
 }
 

@@ -23,7 +23,7 @@ void append_body_step(const ClothModel& bodies, std::uint32_t index, std::uint32
     append(Pass::volume_correct);
 }
 
-void append_volumes(const ClothModel& bodies, std::uint32_t index, std::uint32_t parity, std::vector<Call>& calls)
+void append_volumes(std::uint32_t index, std::uint32_t parity, std::vector<Call>& calls)
 {
     calls.push_back({Pass::volume_measure, index, parity, 0});
     calls.push_back({Pass::volume_total, index, parity, 0});

@@ -14,7 +14,7 @@ namespace pliant {
 void append_body_step(const ClothModel& bodies, std::uint32_t index, std::uint32_t step, std::uint32_t parity,
                       std::vector<Call>& calls);
 
-/// Appends the measure of the volumes in the state copy `parity`.
-void append_volumes(const ClothModel& bodies, std::uint32_t index, std::uint32_t parity, std::vector<Call>& calls);
+/// Appends the measure of the volumes of model `index` in the state copy `parity`.
+void append_volumes(std::uint32_t index, std::uint32_t parity, std::vector<Call>& calls);
 
 }  // namespace pliant

@@ -173,14 +173,15 @@ void PlainBody<T>::ring_step(const Call& call, PlainCloth<T>& cloth, const StepC
                              std::span<const Collider> colliders, std::size_t begin, std::size_t end) const
 {
     std::size_t part = 0;
-    cloth.for_each_node(begin, end, [&](const auto& place) {
-        while (place.node >= model->parts[part].first_node + model->parts[part].node_count) ++part;
-        const RingSums<T> ring(cloth, c, call.parity, place.node);
-        Vector force = ring.force + cloth.external_force.get(place.offset);
+    for (std::size_t node = begin; node < end; ++node) {
+        while (node >= model->parts[part].first_node + model->parts[part].node_count) ++part;
+        const std::size_t offset = cloth.layout.offset(node);
+        const RingSums<T> ring(cloth, c, call.parity, node);
+        Vector force = ring.force + cloth.external_force.get(offset);
         if (model->has_pressure)
             force = force + ring.gradient * static_cast<T>(goal_of(call, c, part).pressure);
-        cloth.finish_step(call, c, colliders, place, force);
-    });
+        cloth.finish_step(call, c, colliders, {node, 0, node, offset}, force);
+    }
 }
 
 template <class T>
@@ -224,7 +225,7 @@ void PlainBody<T>::step(const Call& call, PlainCloth<T>& cloth, const StepConsta
             const Rate sums = rate_of(part);
             mean = L::volume_mean(sums, static_cast<T>(part.inverse_weight));
             const T excess = records[known].volume - static_cast<T>(goal_of(call, c, known).volume);
-            q = L::volume_multiplier(sums, mean, excess, c.dt, c.inverse_dt);
+            q = L::volume_multiplier(sums, mean, excess, c.inverse_dt);
         }
         for (std::uint32_t k = 0; k < block.count; ++k) {
             const std::size_t offset = cloth.layout.offset(block.first + k);

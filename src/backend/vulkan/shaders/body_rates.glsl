@@ -1,0 +1,39 @@
+#ifndef BODY_RATES_GLSL
+#define BODY_RATES_GLSL
+// Both sides of eq. (14), summed up.
+#include "body_sums.glsl"
+
+shared VolumeRate rate_values[256];
+
+VolumeRate merged_rate(VolumeRate value)
+{
+    uint k = gl_LocalInvocationID.x;
+    rate_values[k] = value;
+    for (uint span = 128u; span > 0u; span /= 2u) {
+        barrier();
+        if (k < span) rate_values[k] = volume_rate_merge(rate_values[k], rate_values[k + span]);
+    }
+    barrier();
+    return rate_values[0];
+}
+
+VolumeRate rate_of_block(uint block)
+{
+    uint at = body_topology[rate_sums_at] + 2u * block;
+    vec4 a = body_sums[at], b = body_sums[at + 1u];
+    VolumeRate value;
+    value.rate = a.x;
+    value.mobility = a.y;
+    value.pushed = vec3(a.z, a.w, b.x);
+    value.thrust = vec3(b.y, b.z, b.w);
+    return value;
+}
+
+VolumeRate rate_of_body(BodyPart part)
+{
+    VolumeRate value = volume_rate_of_nothing();
+    for (uint k = gl_LocalInvocationID.x; k < part.block_count; k += 256u)
+        value = volume_rate_merge(value, rate_of_block(part.first_block + k));
+    return merged_rate(value);
+}
+#endif
