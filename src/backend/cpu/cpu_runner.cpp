@@ -5,6 +5,7 @@
 #include <chrono>
 #include <utility>
 
+#include "backend/cpu/cpu_body.hpp"
 #include "backend/cpu/jobs.hpp"
 #include "backend/cpu/kernels.hpp"
 #include "backend/host/plain_cloth.hpp"
@@ -52,18 +53,19 @@ cpu::Vectors pointers(Planes<float>& a) { return {a.x.data(), a.y.data(), a.z.da
 
 struct CpuCloth {
     explicit CpuCloth(const ClothModel& model)
-        : plain(model), springs(model, plain.layout), solver(model, model.hierarchy)
+        : plain(model), springs(model, plain.layout), solver(model, model.hierarchy), body(plain)
     {
         plain.spring_force = Planes<float>(springs.first.size());
     }
     PlainCloth<float> plain;
     SpringArrays springs;
     SolverState<float> solver;
+    cpu::CpuBody body;
 };
 
 /// One call with all it needs; `part` runs a piece of it.
 struct Work {
-    enum class Unit { rows, springs, values, solver, single } unit = Unit::values;
+    enum class Unit { rows, springs, values, solver, single, body } unit = Unit::values;
     std::size_t size = 0;      ///< in units
     std::size_t multiple = 1;  ///< parts begin at multiples of this
     std::size_t weight = 1;    ///< nodes or springs in a unit, for the decision how many threads are worth it
@@ -87,6 +89,11 @@ struct Work {
             size = cloth->solver.size_of(c);
             weight = cloth->solver.weight_of(c);
             solver = &cloth->solver.context(c, plain, solver_values, shapes);
+        } else if (cpu::CpuBody::has_kernel(call->pass)) {
+            unit = Unit::body;
+            size = cloth->body.size_of(c);
+            weight = block_size;
+            cloth->body.prepare(c, plain, values);
         } else if (call->pass == Pass::sheet_step || call->pass == Pass::sheet_wind) {
             unit = Unit::rows;
             size = plain.layout.rows;
@@ -120,6 +127,8 @@ struct Work {
             springs(begin, end);
         else if (unit == Unit::solver)
             solve(index, begin, end);
+        else if (unit == Unit::body)
+            cloth->body.run(*call, cloth->plain, *kernels, *constants, colliders, begin, end);
         else if (unit == Unit::single)
             cloth->solver.run(*call, *solver, begin, end);
         else

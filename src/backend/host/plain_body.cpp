@@ -1,6 +1,7 @@
 #include "backend/host/plain_body.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 #include "backend/host/plain_cloth.hpp"
 
@@ -43,21 +44,34 @@ struct RingSums {
     }
 };
 
-/// By the fixed tree: value k of 256 is the sum of the k-th, the (k + 256)-th, ... of a body's blocks.
+/// The fixed tree: 16 lanes, each of every 16th value in their order; then the lanes in theirs. To merge nothing changes
+/// no bit, so that `count` of the 256 values may be all.
+template <class Value, class Merge>
+Value merged_values(const Value* values, std::size_t count, Merge merge)
+{
+    constexpr std::size_t lane_count = 16;
+    const std::size_t used = std::min(count, lane_count);
+    Value total = values[0];
+    for (std::size_t k = 0; k < used; ++k) {
+        Value lane = values[k];
+        for (std::size_t j = k + lane_count; j < count; j += lane_count) lane = merge(lane, values[j]);
+        total = k == 0 ? lane : merge(total, lane);
+    }
+    return total;
+}
+
+/// Of the blocks of a body: value k of 256 is the sum of the k-th, the (k + 256)-th, ...
 template <class Value, class Nothing, class Merge>
 Value merged_blocks(const std::vector<Value>& all, std::size_t first, std::size_t count, Nothing nothing, Merge merge)
 {
     Value values[block_size];
-    std::size_t used = 1;  // merging nothing changes no bit
-    while (used < block_size && used < count) used *= 2;
+    std::fill(values, values + block_size, nothing());
+    const std::size_t used = std::min<std::size_t>(block_size, count);
     for (std::size_t k = 0; k < used; ++k) {
-        values[k] = nothing();
         for (std::size_t source = k; source < count; source += block_size)
             values[k] = merge(values[k], all[first + source]);
     }
-    for (std::size_t half = used / 2; half > 0; half /= 2)
-        for (std::size_t k = 0; k < half; ++k) values[k] = merge(values[k], values[k + half]);
-    return values[0];
+    return merged_values(values, used, merge);
 }
 
 }  // namespace
@@ -133,17 +147,14 @@ typename PlainBody<T>::Cubic PlainBody<T>::cubic_of(const BodyPart& part) const
 template <class T>
 typename PlainBody<T>::Rate PlainBody<T>::merged(Rate* values)
 {
-    for (std::size_t half = block_size / 2; half > 0; half /= 2)
-        for (std::size_t k = 0; k < half; ++k) values[k] = L::volume_rate_merge(values[k], values[k + half]);
-    return values[0];
+    return merged_values(values, block_size, [](const Rate& a, const Rate& b) { return L::volume_rate_merge(a, b); });
 }
 
 template <class T>
 typename PlainBody<T>::Cubic PlainBody<T>::merged(Cubic* values)
 {
-    for (std::size_t half = block_size / 2; half > 0; half /= 2)
-        for (std::size_t k = 0; k < half; ++k) values[k] = L::volume_cubic_merge(values[k], values[k + half]);
-    return values[0];
+    return merged_values(values, block_size,
+                         [](const Cubic& a, const Cubic& b) { return L::volume_cubic_merge(a, b); });
 }
 
 template <class T>
@@ -153,6 +164,34 @@ VolumeGoal PlainBody<T>::goal_of(const Call& call, const StepConstants<T>& const
     if (constants.goals.size() < parts) return model->goal_at(part, 0);
     const std::size_t row = constants.goals.size() >= (call.index + 1) * parts ? call.index : 0;
     return constants.goals[row * parts + part];
+}
+
+template <class T>
+std::pair<Vector3<T>, T> PlainBody<T>::multiplier_of(const BodyPart& part, std::size_t index, const VolumeGoal& goal,
+                                                     const StepConstants<T>& constants) const
+{
+    const Rate sums = rate_of(part);
+    const Vector mean = L::volume_mean(sums, static_cast<T>(part.inverse_weight));
+    const T excess = records[index].volume - static_cast<T>(goal.volume);
+    return {mean, L::volume_multiplier(sums, mean, excess, constants.inverse_dt)};
+}
+
+template <class T>
+T PlainBody<T>::correction_of(const BodyPart& part, const VolumeGoal& goal) const
+{
+    return L::volume_root(cubic_of(part), static_cast<T>(goal.volume));
+}
+
+template <class T>
+T PlainBody<T>::correction_of(const BodyPart& part, std::size_t index, const VolumeGoal& goal)
+{
+    const T wanted = static_cast<T>(goal.volume);
+    const Cubic cubic = cubic_of(part);
+    const T s = L::volume_root(cubic, wanted);
+    Record& record = records[index];
+    record.volume = wanted + L::volume_excess(cubic, wanted, s);
+    record.centre = record.centre + cubic.arm * static_cast<T>(part.inverse_fans);
+    return s;
 }
 
 template <class T>
@@ -221,11 +260,7 @@ void PlainBody<T>::step(const Call& call, PlainCloth<T>& cloth, const StepConsta
         const BodyBlock& block = model->node_blocks[b];
         if (block.body != known) {
             known = block.body;
-            const BodyPart& part = model->parts[known];
-            const Rate sums = rate_of(part);
-            mean = L::volume_mean(sums, static_cast<T>(part.inverse_weight));
-            const T excess = records[known].volume - static_cast<T>(goal_of(call, c, known).volume);
-            q = L::volume_multiplier(sums, mean, excess, c.inverse_dt);
+            std::tie(mean, q) = multiplier_of(model->parts[known], known, goal_of(call, c, known), c);
         }
         for (std::uint32_t k = 0; k < block.count; ++k) {
             const std::size_t offset = cloth.layout.offset(block.first + k);
@@ -292,14 +327,8 @@ void PlainBody<T>::correct(const Call& call, PlainCloth<T>& cloth, const StepCon
         const BodyPart& part = model->parts[block.body];
         if (block.body != known) {
             known = block.body;
-            const T wanted = static_cast<T>(goal_of(call, c, known).volume);
-            const Cubic cubic = cubic_of(part);
-            s = L::volume_root(cubic, wanted);
-            if (b == part.first_block) {
-                Record& record = records[known];
-                record.volume = wanted + L::volume_excess(cubic, wanted, s);
-                record.centre = record.centre + cubic.arm * static_cast<T>(part.inverse_fans);
-            }
+            const VolumeGoal goal = goal_of(call, c, known);
+            s = b == part.first_block ? correction_of(part, known, goal) : correction_of(part, goal);
         }
         for (std::uint32_t k = 0; k < block.count; ++k) {
             const std::size_t offset = cloth.layout.offset(block.first + k);

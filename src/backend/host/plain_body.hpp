@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "backend/host/planes.hpp"
@@ -43,11 +44,19 @@ public:
     {
         return {blocked.get(offset), blocked_count[offset]};
     }
-    /// Sums of the blocks of one body, by the fixed tree: every 256th first, then halves.
+    /// Sums of the blocks of one body.
     Rate rate_of(const BodyPart& part) const;
     Cubic cubic_of(const BodyPart& part) const;
     /// What is wanted of a body at the end of a step.
     VolumeGoal goal_of(const Call& call, const StepConstants<T>& constants, std::size_t part) const;
+
+    /// The mean gradient, and the multiplier of eq. (14) as a change of velocity.
+    std::pair<Vector, T> multiplier_of(const BodyPart& part, std::size_t index, const VolumeGoal& goal,
+                                       const StepConstants<T>& constants) const;
+    /// How far the exact correction goes; keeps in the record of the body where that leads.
+    T correction_of(const BodyPart& part, std::size_t index, const VolumeGoal& goal);
+    /// The same without a word in the record: what all blocks but the first do.
+    T correction_of(const BodyPart& part, const VolumeGoal& goal) const;
 
     const BodyModel* model = nullptr;  ///< null for a cloth
     Planes<T> gradient, direction, blocked;
@@ -57,7 +66,7 @@ public:
     std::vector<Record> records;
     std::vector<T> volumes;  ///< 6 V as measured last
 
-    /// The values of a block of 256, halves added to each other until one is left.
+    /// The values of a block of 256 by the fixed tree, see plain_body.cpp.
     static Rate merged(Rate* values);
     static Cubic merged(Cubic* values);
 

@@ -3,18 +3,21 @@
 // The cubic of the exact correction, summed up.
 #include "body_sums.glsl"
 
-shared VolumeCubic cubic_values[256];
+shared VolumeCubic cubic_values[256], cubic_lanes[16];
 
 VolumeCubic merged_cubic(VolumeCubic value)
 {
     uint k = gl_LocalInvocationID.x;
     cubic_values[k] = value;
-    for (uint span = 128u; span > 0u; span /= 2u) {
-        barrier();
-        if (k < span) cubic_values[k] = volume_cubic_merge(cubic_values[k], cubic_values[k + span]);
+    barrier();
+    if (k < 16u) {
+        for (uint j = 1u; j < 16u; ++j) value = volume_cubic_merge(value, cubic_values[k + 16u * j]);
+        cubic_lanes[k] = value;
     }
     barrier();
-    return cubic_values[0];
+    value = cubic_lanes[0];
+    for (uint j = 1u; j < 16u; ++j) value = volume_cubic_merge(value, cubic_lanes[j]);
+    return value;
 }
 
 VolumeCubic cubic_of_block(uint block)

@@ -3,18 +3,21 @@
 // Both sides of eq. (14), summed up.
 #include "body_sums.glsl"
 
-shared VolumeRate rate_values[256];
+shared VolumeRate rate_values[256], rate_lanes[16];
 
 VolumeRate merged_rate(VolumeRate value)
 {
     uint k = gl_LocalInvocationID.x;
     rate_values[k] = value;
-    for (uint span = 128u; span > 0u; span /= 2u) {
-        barrier();
-        if (k < span) rate_values[k] = volume_rate_merge(rate_values[k], rate_values[k + span]);
+    barrier();
+    if (k < 16u) {
+        for (uint j = 1u; j < 16u; ++j) value = volume_rate_merge(value, rate_values[k + 16u * j]);
+        rate_lanes[k] = value;
     }
     barrier();
-    return rate_values[0];
+    value = rate_lanes[0];
+    for (uint j = 1u; j < 16u; ++j) value = volume_rate_merge(value, rate_lanes[j]);
+    return value;
 }
 
 VolumeRate rate_of_block(uint block)

@@ -1,7 +1,8 @@
 #ifndef BODY_SUMS_GLSL
 #define BODY_SUMS_GLSL
-// Sums of blocks, merged by the fixed tree of 256: by halves within a block; then, by whoever needs the sum of a body,
-// every 256th block first, and halves again.
+// Sums of 256 values by one fixed tree: 16 lanes, each of every 16th value in their order; then the lanes in theirs. So
+// it is within a block, and then, by whoever needs the sum of a body, over its blocks, every 256th of which are added
+// first. Two barriers instead of eight, and on the CPU the lanes are those of a register.
 #include "body.glsl"
 
 #ifndef BODY_SUMS_ACCESS
