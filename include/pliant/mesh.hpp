@@ -23,10 +23,15 @@ struct SurfaceMesh {
     std::filesystem::path file = {};  ///< where it was read from; empty for a mesh made in code
 };
 
-/// Reads a mesh by the ending of its name: `.ply` (ASCII, binary little- and big-endian) or `.obj`.
+/// Reads a mesh by the ending of its name: `.ply` (ASCII, binary little- and big-endian), `.obj`, and through
+/// assimp `.stl`, `.off`, `.gltf` and `.glb`. Vertices at one place of an STL or glTF file are made one:
+/// these formats store them again for every triangle or seam. What a node of a glTF scene moves is moved.
 /// Throws Error(bad_input) naming file, line (or byte) and value when the file is not exactly what it claims
 /// to be.
 SurfaceMesh read_mesh(const std::filesystem::path& file);
+
+/// Whether the name ends as read_mesh asks.
+bool is_mesh_file(const std::filesystem::path& file);
 
 /// Writes a mesh by the ending of its name: `.ply` (binary little-endian) or `.obj`.
 /// The file appears under its name only when it is complete. Throws Error(bad_input) when it cannot be
