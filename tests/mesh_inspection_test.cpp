@@ -12,10 +12,6 @@
 #include "mesh/disc.hpp"
 #include "test_meshes.hpp"
 
-#ifndef PLIANT_SHARED_DIR
-#define PLIANT_SHARED_DIR PLIANT_SOURCE_DIR "/../shared"
-#endif
-
 namespace pliant {
 namespace {
 
@@ -193,7 +189,8 @@ TEST(MeshInspection, two_solids_at_one_vertex_are_two_fans)
     EXPECT_EQ(report.boundary_edges + report.non_manifold_edges, 0u);
     EXPECT_EQ(report.components, 1u);
     EXPECT_FALSE(report.closed);
-    EXPECT_NE(describe(report).find("1 non-manifold vertex (more than one fan), first vertex 0\n"), std::string::npos);
+    EXPECT_NE(describe(report).find("1 non-manifold vertex (more than one fan), first vertex 0\n"),
+              std::string::npos);
 }
 
 TEST(MeshInspection, degenerate_duplicate_isolated_coincident)

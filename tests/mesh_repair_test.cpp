@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <random>
 
 #include "pliant/mesh_generators.hpp"
@@ -10,6 +13,8 @@
 
 namespace pliant {
 namespace {
+
+namespace fs = std::filesystem;
 
 using test::failure_of;
 using test::tetrahedron;
@@ -359,6 +364,63 @@ TEST(RequireClosed, refuses_everything_else_that_has_no_volume)
     mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 4}, {0, 3, 4}, {3, 2, 4}};
     ASSERT_TRUE(inspect_mesh(mesh).closed);
     EXPECT_NE(refusal_of(mesh).find("it has an edge without length; mend it by"), std::string::npos);
+}
+
+// ---- the collection beside the repository
+
+TEST(SharedMeshes, repair_makes_of_bad_files_what_the_manifest_says)
+{
+    const fs::path bad = fs::path(PLIANT_SHARED_DIR) / "meshes" / "bad";
+    if (!fs::exists(bad / "manifest.json")) GTEST_SKIP() << "no collection of bad meshes at " << bad;
+    const auto manifest = nlohmann::json::parse(std::ifstream(bad / "manifest.json"));
+    std::size_t bodies = 0, mended_bodies = 0;
+    for (const auto& entry : manifest.at("files")) {
+        const std::string name = entry.at("file"), parse = entry.at("parse");
+        if (parse == "error") continue;
+        SCOPED_TRACE(name + ": " + entry.at("what").get<std::string>());
+        SurfaceMesh mesh;
+        try {
+            mesh = read_mesh(bad / name);
+        } catch (const Error& error) {
+            EXPECT_EQ(parse, "ok_or_error") << error.what();
+            continue;
+        }
+        const bool is_body = failure_of([&] { require_closed(mesh, name); }) == "no failure";
+        if (!entry.value("closed", true) || entry.value("volume_sign", 1) < 1) EXPECT_FALSE(is_body);
+        if (entry.value("valid", false)) EXPECT_TRUE(is_body);
+        bodies += is_body;
+
+        const MeshReport before = inspect_mesh(mesh);
+        repair_mesh(mesh, {.weld_tolerance = entry.value("weld_tolerance", 0.0)});
+        const MeshReport after = inspect_mesh(mesh);
+        mended_bodies += failure_of([&] { require_closed(mesh, name); }) == "no failure";
+        if (entry.contains("weld_to")) EXPECT_EQ(after.vertices, entry.at("weld_to").get<std::size_t>());
+        const bool can_close = before.closed || entry.contains("weld_to") || before.duplicate_triangles > 0 ||
+                               entry.value("closed_after_dropping", false);
+        EXPECT_EQ(after.closed, can_close);
+        EXPECT_EQ(after.inward_components, 0u);
+        EXPECT_EQ(after.oriented, before.triangles > 0 && name != "moebius.ply");
+        EXPECT_EQ(after.isolated_vertices, after.triangles > 0 ? 0 : after.vertices);
+        if (before.closed && before.oriented)
+            EXPECT_NEAR(after.volume, std::abs(before.volume), 1e-6 * after.volume);
+    }
+    EXPECT_GE(bodies, 25u);
+    EXPECT_GE(mended_bodies,
+              bodies + 8);  // soup, jitter, inside out, mixed, duplicate, degenerate, unused, length 0
+}
+
+TEST(SharedMeshes, the_scanned_rabbit_is_closed)
+{
+    const fs::path file = fs::path(PLIANT_SHARED_DIR) / "meshes" / "bad" / "real_bunny_raw_holes.ply";
+    if (!fs::exists(file)) GTEST_SKIP() << "no mesh at " << file;
+    SurfaceMesh mesh = read_mesh(file);
+    ASSERT_EQ(inspect_mesh(mesh).boundary_loops, 5u);
+    const RepairReport report = repair_mesh(mesh, {.fill_holes = true});
+    EXPECT_EQ(report.isolated_vertices, 1113u);
+    EXPECT_EQ(report.filled_holes, 5u);
+    EXPECT_EQ(report.added_triangles, 223u - 2 * 5);  // n corners take n - 2 triangles
+    EXPECT_NO_THROW(require_closed(mesh, "bunny"));
+    EXPECT_EQ(inspect_mesh(mesh).genus, 0);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <assimp/scene.h>
 #include <assimp/Importer.hpp>
 
+#include "files/numbered_name.hpp"
 #include "mesh/mesh_formats.hpp"
 #include "mesh/mesh_welding.hpp"
 #include "mesh/polygon.hpp"
@@ -175,6 +176,36 @@ Expected triangles_of_off(const MeshSource& source)
     return triangles;
 }
 
+/// The lengths in the frame of a binary glTF file (glTF 2.0 specification, section 4.4): assimp would set
+/// aside memory for any.
+void check_frame_of_glb(const MeshSource& source)
+{
+    const std::string_view bytes = source.bytes;
+    constexpr std::size_t header = 12, chunk_header = 8;
+    if (!bytes.starts_with("glTF") || bytes.size() < header + chunk_header)
+        mesh_error(source, "it does not begin as a binary glTF file; export the mesh again");
+    if (const auto version = little_endian_at(bytes, 4); version != 2)
+        mesh_error_at_byte(source, 4,
+                           "glTF version " + std::to_string(version) + " is unknown; export as version 2");
+    if (const auto length = little_endian_at(bytes, 8); length != bytes.size())
+        mesh_error_at_byte(source, 8,
+                           "it declares " + std::to_string(length) + " bytes, but has " +
+                               std::to_string(bytes.size()) + "; export the mesh again");
+    std::size_t position = header;
+    while (position < bytes.size()) {
+        const std::size_t left = bytes.size() - position;
+        const std::uint64_t length = left < chunk_header ? 0 : little_endian_at(bytes, position);
+        if (left < chunk_header || length > left - chunk_header)
+            mesh_error_at_byte(
+                source, position,
+                "a chunk of " + std::to_string(length) + " bytes goes beyond the end; export the mesh again");
+        if (position == header && bytes.substr(position + 4, 4) != "JSON")
+            mesh_error_at_byte(source, position + 4,
+                               "the first chunk is not of type JSON; export the mesh again");
+        position += chunk_header + static_cast<std::size_t>(length);
+    }
+}
+
 /// The places of all meshes in the tree of a scene, each with its transformation.
 void add_nodes(const MeshSource& source, const aiScene& scene, SurfaceMesh& result)
 {
@@ -264,6 +295,8 @@ SurfaceMesh read_off(const MeshSource& source) { return read_by_assimp(source, t
 
 SurfaceMesh read_gltf(const MeshSource& source)
 {
+    if (source.bytes.starts_with("glTF") || lower_case_ending(source.name) == ".glb")
+        check_frame_of_glb(source);
     SurfaceMesh mesh = read_by_assimp(source, {});
     weld_vertices(mesh, 0);  // vertices are stored again where normals or textures have a seam
     return mesh;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 #include <span>
 #include <vector>
 
@@ -15,9 +14,10 @@ namespace pliant {
 /// Disjoint sets of 0 .. n-1, with path halving. The root of a set is its smallest member.
 class DisjointSets {
 public:
-    explicit DisjointSets(std::size_t n) : parents_(n)
+    explicit DisjointSets(std::size_t n)
     {
-        std::iota(parents_.begin(), parents_.end(), std::size_t{0});
+        parents_.reserve(n);
+        for (std::size_t i = 0; i < n; ++i) parents_.push_back(i);
     }
 
     std::size_t root(std::size_t i)
