@@ -5,9 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <set>
-
-#include "pliant/error.hpp"
-
 namespace pliant {
 namespace {
 
@@ -36,11 +33,6 @@ struct NodeTriangles {
             for (std::uint32_t k = 0; k < 3; ++k) corners[next[triangles[t][k]]++] = 3 * t + k;
     }
 };
-
-[[noreturn]] void refuse(const std::string& what, const std::string& problem)
-{
-    throw Error(ErrorKind::bad_input, what + " " + problem);
-}
 
 Vec3d mean_of(std::span<const Vec3> positions)
 {
@@ -160,56 +152,32 @@ std::vector<std::uint32_t> node_order(const SurfaceMesh& mesh)
     return order;
 }
 
-Ragged<Neighbour> rings_of(std::uint32_t node_count, std::span<const Triangle> triangles, const std::string& what)
+Ragged<std::uint32_t> rings_of(std::uint32_t node_count, std::span<const Triangle> triangles)
 {
     const NodeTriangles around(node_count, triangles);
-    Ragged<Neighbour> rings;
+    Ragged<std::uint32_t> rings;
     rings.start.push_back(0);
+    rings.entries.reserve(around.corners.size());
     std::vector<std::pair<std::uint32_t, std::uint32_t>> sides;  // of one node: (b, c) of each triangle (node, b, c)
     for (std::uint32_t node = 0; node < node_count; ++node) {
         sides.clear();
         for (std::uint32_t k = around.start[node]; k < around.start[node + 1]; ++k) {
-            const std::uint32_t triangle = around.corners[k] / 3, corner = around.corners[k] % 3;
-            const Triangle& t = triangles[triangle];
+            const Triangle& t = triangles[around.corners[k] / 3];
+            const std::uint32_t corner = around.corners[k] % 3;
             sides.emplace_back(t[(corner + 1) % 3], t[(corner + 2) % 3]);
         }
         std::sort(sides.begin(), sides.end());
-        if (sides.empty()) refuse(what, "has the vertex " + std::to_string(node) + " in no triangle; remove it");
-        const bool several = [&] {
-            std::size_t length = 0;
-            std::uint32_t at = sides.front().first;
-            do {
-                const auto next = std::lower_bound(sides.begin(), sides.end(), std::make_pair(at, 0u));
-                if (next == sides.end() || next->first != at) break;
-                at = next->second;
-                ++length;
-            } while (at != sides.front().first && length <= sides.size());
-            return length != sides.size();
-        }();
-        std::vector<bool> used(sides.size(), false);
-        for (std::size_t first = 0; first < sides.size(); ++first) {
-            if (used[first]) continue;
-            std::uint32_t at = sides[first].first;
-            do {
-                const auto next = std::lower_bound(sides.begin(), sides.end(), std::make_pair(at, 0u));
-                const auto index = static_cast<std::size_t>(next - sides.begin());
-                const bool twice = next != sides.end() && next + 1 != sides.end() && (next + 1)->first == at;
-                if (next == sides.end() || next->first != at || twice || used[index])
-                    refuse(what, "is not closed, or does not face outward everywhere, at the edge between the vertices " +
-                                     std::to_string(node) + " and " + std::to_string(at) +
-                                     ", which needs exactly one triangle on either side");
-                used[index] = true;
-                rings.entries.push_back({at, 0});
-                at = next->second;
-            } while (at != sides[first].first);
-            if (several) rings.entries.push_back({at, BodyModel::no_spring});
+        std::uint32_t at = sides.front().first;
+        for (std::size_t k = 0; k < sides.size(); ++k) {
+            rings.entries.push_back(at);
+            at = std::lower_bound(sides.begin(), sides.end(), std::make_pair(at, 0u))->second;
         }
         rings.start.push_back(static_cast<std::uint32_t>(rings.entries.size()));
     }
     return rings;
 }
 
-Ragged<std::uint32_t> fans_of(const Ragged<Neighbour>& rings)
+Ragged<std::uint32_t> fans_of(const Ragged<std::uint32_t>& rings)
 {
     const auto count = static_cast<std::uint32_t>(rings.row_count());
     // Entry k of the ring of a stands for the triangle (a, b_k, b_k+1); it is in the rings of b_k and b_k+1, too.
@@ -217,13 +185,9 @@ Ragged<std::uint32_t> fans_of(const Ragged<Neighbour>& rings)
     const auto next_in = [&](std::uint32_t node, std::uint32_t k) {
         return k + 1 < rings.start[node + 1] ? k + 1 : rings.start[node];
     };
-    // An entry that closes one of several rings stands for no triangle.
-    for (std::uint32_t node = 0; node < count; ++node)
-        for (std::uint32_t k = rings.start[node]; k < rings.start[node + 1]; ++k)
-            if (rings.entries[k].spring == BodyModel::no_spring) taken[k] = true;
     const auto take = [&](std::uint32_t node, std::uint32_t b, std::uint32_t c) {
         for (std::uint32_t k = rings.start[node]; k < rings.start[node + 1]; ++k)
-            if (!taken[k] && rings.entries[k].node == b && rings.entries[next_in(node, k)].node == c) {
+            if (rings.entries[k] == b && rings.entries[next_in(node, k)] == c) {
                 taken[k] = true;
                 return;
             }
@@ -256,7 +220,7 @@ Ragged<std::uint32_t> fans_of(const Ragged<Neighbour>& rings)
                     fan.clear();
                     continue;
                 }
-                const std::uint32_t b = rings.entries[k].node, c = rings.entries[next_in(node, k)].node;
+                const std::uint32_t b = rings.entries[k], c = rings.entries[next_in(node, k)];
                 if (fan.empty()) fan = {node, b};
                 fan.push_back(c);
                 taken[k] = true;

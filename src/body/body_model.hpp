@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -44,10 +43,9 @@ struct VolumeGoal {
 };
 
 struct BodyModel {
-    /// Around each node, counter-clockwise seen from outside, its neighbours; then the other ends of its internal
-    /// springs, from `links` on. An entry without a spring closes one ring of a node that has several.
-    Ragged<Neighbour> ring;
-    std::vector<std::uint32_t> links;  ///< by node: its first entry that is not of the ring
+    /// By node: the first of its ClothModel::neighbours that is across the inside. Those before it are the ring around
+    /// it, counter-clockwise seen from outside.
+    std::vector<std::uint32_t> links;
     /// Triangles that share a node: the node, and then those around it, one more than there are triangles.
     Ragged<std::uint32_t> fans;
     std::vector<BodyBlock> node_blocks, fan_blocks;
@@ -57,16 +55,6 @@ struct BodyModel {
     bool constrained = false;    ///< keeps its volume
     bool has_pressure = false;
 
-    static constexpr std::uint32_t no_spring = ~0u;
-
-    std::span<const Neighbour> ring_of(std::size_t node) const
-    {
-        return {ring.entries.data() + ring.start[node], ring.entries.data() + links[node]};
-    }
-    std::span<const Neighbour> links_of(std::size_t node) const
-    {
-        return {ring.entries.data() + links[node], ring.entries.data() + ring.start[node + 1]};
-    }
     double weight_of(std::size_t node) const { return weights.empty() ? 1.0 : double{weights[node]}; }
     /// Volumes and pressures differ from step to step.
     bool goals_move() const;
@@ -83,13 +71,12 @@ double sixfold_volume(std::span<const Vec3> positions, std::span<const Triangle>
 /// place k the vertex that becomes node k.
 std::vector<std::uint32_t> node_order(const SurfaceMesh& mesh);
 
-/// The rings of neighbours in triangles that face outward, one after the other for each node; the `spring` of an entry
-/// is 0, or BodyModel::no_spring where a ring of several comes back to its first neighbour. Throws Error(bad_input) that
-/// names `what` when the triangles are not a closed surface.
-Ragged<Neighbour> rings_of(std::uint32_t node_count, std::span<const Triangle> triangles, const std::string& what);
+/// The ring of neighbours around each node of a closed surface, counter-clockwise seen from outside, from the neighbour
+/// with the lowest index on.
+Ragged<std::uint32_t> rings_of(std::uint32_t node_count, std::span<const Triangle> triangles);
 
 /// Fans that hold each triangle once, the longest first.
-Ragged<std::uint32_t> fans_of(const Ragged<Neighbour>& rings);
+Ragged<std::uint32_t> fans_of(const Ragged<std::uint32_t>& rings);
 
 /// Pairs (i < j) of nodes that internal springs join, in ascending order.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> internal_pairs(std::span<const Vec3> positions,

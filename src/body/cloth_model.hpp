@@ -136,20 +136,29 @@ public:
     Hierarchy hierarchy;                                     ///< of the constraint methods
     // Only when not node-centric:
     std::vector<Spring> springs;   ///< sorted by (i, j)
-    Ragged<Neighbour> neighbours;  ///< per node, sorted by the other node; of a body, as in its rings
+    Ragged<Neighbour> neighbours;  ///< per node, sorted by the other node; of a body see BodyModel::links
     bool spring_list = false;      ///< of a body: forces by the list of springs, with the method mass_spring
     // Only for a mesh:
     Ragged<std::uint32_t> node_triangles;  ///< per node the triangles around it, ascending
 
     // Only for soft bodies:
     std::optional<BodyModel> body;
+    std::span<const Neighbour> ring_of(std::size_t node) const
+    {
+        return {neighbours.entries.data() + neighbours.start[node], neighbours.entries.data() + body->links[node]};
+    }
+    std::span<const Neighbour> links_of(std::size_t node) const
+    {
+        return {neighbours.entries.data() + body->links[node],
+                neighbours.entries.data() + neighbours.start[node + 1]};
+    }
     Vec3d origin;  ///< m: positions are against it; 0 but for a body, which is stepped near its own origin
     /// The node of each vertex of the body's mesh; empty where they are the same.
     std::vector<std::uint32_t> node_of_vertex;
 
 private:
     void build_body(const Cloth& cloth, const Scene& scene);
-    void list_body_springs(const BodyOptions& options, const Ragged<Neighbour>& rings);
+    void list_body_springs(const BodyOptions& options, const Ragged<std::uint32_t>& rings);
     void finish_body(const Cloth& cloth);
     void set_loads(const Cloth& cloth);
     void build_sheet(const Cloth& cloth, const SheetOptions& options);

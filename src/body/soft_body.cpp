@@ -34,9 +34,8 @@ double length_of(Vec3d a) { return std::sqrt(dot(a, a)); }
 void ClothModel::build_body(const Cloth& cloth, const Scene& scene)
 {
     const auto& mesh = std::get<SurfaceMesh>(cloth.shape);
-    const std::string what = "the mesh of body '" + cloth.name + "'";
     const auto count = static_cast<std::uint32_t>(mesh.vertices.size());
-    rings_of(count, mesh.triangles, what);  // refuses it by the numbers that its file has
+    require_closed(mesh, mesh.file.empty() ? cloth.name : mesh.file.string());
 
     const std::vector<std::uint32_t> order = node_order(mesh);
     node_of_vertex.resize(count);
@@ -62,9 +61,6 @@ void ClothModel::build_body(const Cloth& cloth, const Scene& scene)
     BodyPart part;
     part.node_count = count;
     part.volume = sixfold_volume(positions, triangles_) / 6;
-    if (!(part.volume > 0))
-        throw Error(ErrorKind::bad_input,
-                    what + " faces inward: its volume is negative; `pliant check --repair` turns it outward");
     part.options = cloth.body->volume;
     for (const Vec3& x : positions) part.centre = part.centre + to_double(x) * (1.0 / count);
     body->constrained = scene.method == Method::volume && cloth.body->volume.constraint;
@@ -72,7 +68,7 @@ void ClothModel::build_body(const Cloth& cloth, const Scene& scene)
                                      [](const TimedValue& p) { return p.value != 0; });
     spring_list = scene.method == Method::mass_spring && cloth.formulation == Formulation::spring_list;
 
-    const Ragged<Neighbour> rings = rings_of(count, triangles_, what);
+    const Ragged<std::uint32_t> rings = rings_of(count, triangles_);
     list_body_springs(*cloth.body, rings);
     body->fans = fans_of(rings);
     part.inverse_fans = 1.0 / static_cast<double>(body->fans.row_count());
@@ -108,7 +104,7 @@ void ClothModel::finish_body(const Cloth& cloth)
     set_loads(cloth);
 }
 
-void ClothModel::list_body_springs(const BodyOptions& options, const Ragged<Neighbour>& rings)
+void ClothModel::list_body_springs(const BodyOptions& options, const Ragged<std::uint32_t>& rings)
 {
     const auto add = [&](std::uint32_t i, std::uint32_t j, SpringClass spring_class) {
         const Vec3d d = to_double(positions[j]) - to_double(positions[i]);
@@ -116,9 +112,8 @@ void ClothModel::list_body_springs(const BodyOptions& options, const Ragged<Neig
     };
     const auto by_ends = [](const Spring& a, const Spring& b) { return a.i != b.i ? a.i < b.i : a.j < b.j; };
     for (std::uint32_t i = 0; i < rings.row_count(); ++i)
-        for (const Neighbour& neighbour : rings.row(i))
-            if (neighbour.spring != BodyModel::no_spring && i < neighbour.node)
-                add(i, neighbour.node, SpringClass::structural);
+        for (const std::uint32_t j : rings.row(i))
+            if (i < j) add(i, j, SpringClass::structural);
     std::sort(springs.begin(), springs.end(), by_ends);
     const auto edge_count = static_cast<std::ptrdiff_t>(springs.size());
     const auto is_edge = [&](std::uint32_t i, std::uint32_t j) {
@@ -139,21 +134,11 @@ void ClothModel::list_body_springs(const BodyOptions& options, const Ragged<Neig
         return static_cast<std::uint32_t>(std::lower_bound(springs.begin(), springs.end(), wanted, by_ends) -
                                           springs.begin());
     };
-    Ragged<Neighbour>& ring = body->ring;
-    ring.start.push_back(0);
     neighbours.start.push_back(0);
     for (std::uint32_t i = 0; i < positions.size(); ++i) {
-        for (Neighbour neighbour : rings.row(i)) {
-            if (neighbour.spring != BodyModel::no_spring) {
-                neighbour.spring = spring_between(i, neighbour.node);
-                neighbours.entries.push_back(neighbour);
-            }
-            ring.entries.push_back(neighbour);
-        }
-        body->links.push_back(static_cast<std::uint32_t>(ring.entries.size()));
-        ring.entries.insert(ring.entries.end(), inside[i].begin(), inside[i].end());
+        for (const std::uint32_t j : rings.row(i)) neighbours.entries.push_back({j, spring_between(i, j)});
+        body->links.push_back(static_cast<std::uint32_t>(neighbours.entries.size()));
         neighbours.entries.insert(neighbours.entries.end(), inside[i].begin(), inside[i].end());
-        ring.start.push_back(static_cast<std::uint32_t>(ring.entries.size()));
         neighbours.start.push_back(static_cast<std::uint32_t>(neighbours.entries.size()));
     }
 }

@@ -261,6 +261,7 @@ void volume_cubic(const BodyArguments& a, std::size_t first_block, std::size_t e
                 change = next_change;
             }
             L::VolumeCubic cubic = L::fan_cubic(fan, apex - centre, apex_change);
+            if (a.measures) cubic.first = cubic.second = cubic.third = Number(0.0f);  // without the sign of zeros
             if (lanes < width) cubic = where(lanes_below(static_cast<std::ptrdiff_t>(place), block.count), cubic);
             totals.add(slice, lane, cubic);
         });

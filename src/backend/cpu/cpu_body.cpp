@@ -63,13 +63,11 @@ CpuBody::CpuBody(const PlainCloth<float>& cloth)
     const auto entries_of = [&](std::span<const Neighbour> row) {
         std::vector<Entry> entries;
         for (const Neighbour& n : row)
-            entries.push_back({n.node, n.spring == BodyModel::no_spring
-                                           ? -1.0f
-                                           : static_cast<float>(cloth.model.springs[n.spring].rest_length)});
+            entries.push_back({n.node, static_cast<float>(cloth.model.springs[n.spring].rest_length)});
         return entries;
     };
-    ring_ = sliced(body.node_blocks, cloth.layout, true, [&](std::size_t node) { return entries_of(body.ring_of(node)); });
-    links_ = sliced(body.node_blocks, cloth.layout, true, [&](std::size_t node) { return entries_of(body.links_of(node)); });
+    ring_ = sliced(body.node_blocks, cloth.layout, true, [&](std::size_t node) { return entries_of(cloth.model.ring_of(node)); });
+    links_ = sliced(body.node_blocks, cloth.layout, true, [&](std::size_t node) { return entries_of(cloth.model.links_of(node)); });
     fans_ = sliced(body.fan_blocks, cloth.layout, false, [&](std::size_t fan) {
         std::vector<Entry> entries;
         for (const std::uint32_t node : body.fans.row(fan)) entries.push_back({node, 0});

@@ -17,7 +17,6 @@ struct RingSums {
     {
         using L = Laws<T>;
         const ClothModel& model = cloth.model;
-        const BodyModel& body = *model.body;
         const std::size_t offset = cloth.layout.offset(node);
         const auto &positions = cloth.position[parity], &velocities = cloth.velocity[parity];
         const Vector3<T> x = positions.get(offset), v = velocities.get(offset);
@@ -28,11 +27,11 @@ struct RingSums {
             force = force + L::spring_force(x, positions.get(other), v, velocities.get(other),
                                             static_cast<T>(spring.rest_length), c.stiffness[k], c.damping[k]);
         };
-        const auto ring = body.ring_of(node);
+        const auto ring = model.ring_of(node);
         Vector3<T> first{T(0), T(0), T(0)}, before = first;
         for (std::size_t k = 0; k < ring.size(); ++k) {
             const Vector3<T> side = positions.get(cloth.layout.offset(ring[k].node)) - x;
-            if (ring[k].spring != BodyModel::no_spring) add_spring(ring[k]);
+            add_spring(ring[k]);
             if (k == 0)
                 first = side;
             else
@@ -40,7 +39,7 @@ struct RingSums {
             before = side;
         }
         gradient = L::ring_add(gradient, before, first);
-        for (const Neighbour& neighbour : body.links_of(node)) add_spring(neighbour);
+        for (const Neighbour& neighbour : model.links_of(node)) add_spring(neighbour);
     }
 };
 
@@ -82,6 +81,7 @@ PlainBody<T>::PlainBody(const ClothModel& cloth, const NodeLayout& layout)
 {
     if (!model) return;
     for (Planes<T>* planes : {&gradient, &direction, &blocked}) *planes = Planes<T>(layout.size);
+    node_count = cloth.node_count();
     blocked_count = AlignedArray<T>(layout.size);
     weight = AlignedArray<T>(layout.size);
     for (std::size_t i = 0; i < cloth.node_count(); ++i)
@@ -100,7 +100,7 @@ std::size_t PlainBody<T>::size_of(const Call& call) const
 {
     switch (call.pass) {
         case Pass::load_force: return model->loads.size();
-        case Pass::ring_step: return model->ring.row_count();
+        case Pass::ring_step: return node_count;
         case Pass::volume_cubic:
         case Pass::volume_measure: return model->fan_blocks.size();
         case Pass::volume_total: return model->parts.size();
@@ -310,6 +310,7 @@ void PlainBody<T>::sum_fans(const Call& call, const PlainCloth<T>& cloth, std::s
                 change = next_change;
             }
             values[k] = L::fan_cubic(sums, a - records[block.body].centre, da);
+            if (measures) values[k].first = values[k].second = values[k].third = T(0);  // without the sign of zeros
         }
         cubics[b] = merged(values);
     }
@@ -347,7 +348,7 @@ void PlainBody<T>::read(Resource resource, const NodeLayout& layout, std::vector
     if (!model) return;
     const auto push = [&](auto... numbers) { (values.push_back(static_cast<float>(numbers)), ...); };
     const auto push_planes = [&](const Planes<T>& planes) {
-        for (std::size_t i = 0; i < model->ring.row_count(); ++i) {
+        for (std::size_t i = 0; i < node_count; ++i) {
             const Vector a = planes.get(layout.offset(i));
             push(a.x, a.y, a.z);
         }
@@ -356,7 +357,7 @@ void PlainBody<T>::read(Resource resource, const NodeLayout& layout, std::vector
         case Resource::gradient: return push_planes(gradient);
         case Resource::direction: return push_planes(direction);
         case Resource::blocked:
-            for (std::size_t i = 0; i < model->ring.row_count(); ++i) {
+            for (std::size_t i = 0; i < node_count; ++i) {
                 const auto held = blocked_at(layout.offset(i));
                 push(held.normal.x, held.normal.y, held.normal.z, held.count);
             }

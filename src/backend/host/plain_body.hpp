@@ -59,6 +59,7 @@ public:
     T correction_of(const BodyPart& part, const VolumeGoal& goal) const;
 
     const BodyModel* model = nullptr;  ///< null for a cloth
+    std::size_t node_count = 0;
     Planes<T> gradient, direction, blocked;
     AlignedArray<T> blocked_count, weight;
     std::vector<Rate> rates;

@@ -20,6 +20,7 @@ BodyBuffers::BodyBuffers(const Device& device, const ClothModel& model) : body_(
 {
     if (!body_) return;
     const BodyModel& body = *body_;
+    node_count_ = model.node_count();
     const auto size = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };
     rate_sums_ = {0, 2 * size(body.node_blocks)};
     cubic_sums_ = {rate_sums_.count, 2 * size(body.fan_blocks)};
@@ -39,11 +40,10 @@ BodyBuffers::BodyBuffers(const Device& device, const ClothModel& model) : body_(
         push(part.first_block, part.block_count, part.first_fan_block, part.fan_block_count,
              bits(part.inverse_weight), bits(part.inverse_fans));
     begin(3);
-    for (std::size_t i = 0; i < model.node_count(); ++i) push(body.ring.start[i], body.links[i]);
-    push(body.ring.start.back());
+    for (std::size_t i = 0; i < model.node_count(); ++i) push(model.neighbours.start[i], body.links[i]);
+    push(model.neighbours.start.back());
     begin(4);
-    for (const Neighbour& n : body.ring.entries)
-        push(n.node, bits(n.spring == BodyModel::no_spring ? -1.0 : model.springs[n.spring].rest_length));
+    for (const Neighbour& n : model.neighbours.entries) push(n.node, bits(model.springs[n.spring].rest_length));
     begin(5);
     for (const std::uint32_t start : body.fans.start) push(start);
     begin(6);
@@ -86,7 +86,7 @@ std::uint32_t BodyBuffers::groups_of(const Call& call) const
     const auto groups = [](std::size_t n) { return static_cast<std::uint32_t>((n + 63) / 64); };
     switch (call.pass) {
         case Pass::load_force: return groups(body_->loads.size());
-        case Pass::ring_step: return groups(body_->ring.row_count());
+        case Pass::ring_step: return groups(node_count_);
         case Pass::volume_cubic:
         case Pass::volume_measure: return static_cast<std::uint32_t>(body_->fan_blocks.size());
         case Pass::volume_total: return static_cast<std::uint32_t>(body_->parts.size());

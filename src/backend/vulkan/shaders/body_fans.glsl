@@ -24,6 +24,9 @@ void sum_fans()
         }
         precise vec3 arm = a - record_of(block.body).xyz;
         cubic = fan_cubic(fan, arm, da);
+#ifdef MEASURES  // without the sign of zeros
+        cubic.first = cubic.second = cubic.third = 0.0f;
+#endif
     }
     cubic = merged_cubic(cubic);
     if (gl_LocalInvocationID.x == 0u) {

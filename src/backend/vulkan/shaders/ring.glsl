@@ -21,9 +21,8 @@ RingSums ring_sums(uint node)
         float rest = uintBitsToFloat(body_topology[entries + 2u * e + 1u]);
         vec3 there = position_of(other);
         uint k = e < links ? structural : shear;
-        if (rest >= 0.0f)
-            force = force + spring_force(x, there, v, velocity_of(other), rest, component(parameters.stiffness, k),
-                                         component(parameters.spring_damping, k));
+        force = force + spring_force(x, there, v, velocity_of(other), rest, component(parameters.stiffness, k),
+                                     component(parameters.spring_damping, k));
         if (e >= links) continue;
         precise vec3 side = there - x;
         if (e == begin)
