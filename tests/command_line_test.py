@@ -113,7 +113,17 @@ BAD_COMMANDS = [
     ("check no_such_scene", BAD_INPUT, ["no_such_scene", "pliant list"]),
     ("check scene.json --set time.duration=0", BAD_INPUT, ["time.duration", "0 s", "above 0"]),
     ("check no.ply", BAD_INPUT, ["no.ply", "no such file"]),
-    ("check triangle.stl", BAD_INPUT, ["triangle.stl", ".ply", ".obj"]),
+    ("check triangle.3ds", BAD_INPUT, ["triangle.3ds", ".ply", ".obj", ".stl", ".off", ".gltf", ".glb"]),
+    ("check no.stl", BAD_INPUT, ["no.stl", "no such file"]),
+    ("check triangle.obj --weld 1e-5", BAD_USAGE, ["--weld", "--repair"]),
+    ("check triangle.obj --fill-holes", BAD_USAGE, ["--fill-holes", "--repair"]),
+    ("check triangle.obj --out a.ply", BAD_USAGE, ["--out", "--repair"]),
+    ("check triangle.obj --repair --weld -1", BAD_USAGE, ["--weld", "-1", "10000"]),
+    ("check triangle.obj --repair --weld wide", BAD_USAGE, ["--weld", "wide"]),
+    ("check triangle.obj --repair --out a.stl", BAD_INPUT, ["a.stl", ".ply", ".obj"]),
+    ("check triangle.obj --repair --out nowhere/a.ply", BAD_INPUT, ["nowhere"]),
+    ("check triangle.obj --repair --out ./triangle.obj", BAD_USAGE, ["--out", "triangle.obj", "another name"]),
+    ("check scene.json --repair", BAD_USAGE, ["--repair", "scene.json", "mesh"]),
     ("check broken.obj", BAD_INPUT, ["broken.obj", "line 4", "9"]),
     ("check broken.ply", BAD_INPUT, ["broken.ply", "vertex"]),
     ("check triangle.obj --set time.duration=1", BAD_USAGE, ["--set", "triangle.obj"]),
@@ -552,7 +562,8 @@ def version_and_help(folder):
     text = call(folder, "run --help").expect(0).out
     expect_words(text, [*RUN_OPTIONS, "auto|cpu|vulkan|reference"])
     expect_words(text, [".pc2", "%04d.ply", "%04d.obj", ".png", "%04d.png", ".mp4"])
-    expect_words(call(folder, "check --help").expect(0).out, ["SCENE|MESH", ".ply", ".obj", "--set"])
+    expect_words(call(folder, "check --help").expect(0).out,
+                 ["SCENE|MESH", ".ply", ".obj", ".stl", "--set", "--repair", "--weld", "--fill-holes", "--out"])
 
 
 @case
@@ -581,6 +592,28 @@ def check_a_mesh_of_the_tool(folder):
         simulate(folder, f"--cache seq_%d.{ending}").expect(0)
         outcome = call(folder, f"check seq_{FRAMES}.{ending}").expect(0)
         expect_words(outcome.out, ["12 vertices", "12 triangles", "1 component", "not closed"])
+
+
+@case
+def check_tells_what_repair_would_do_and_repair_does_it(folder):
+    # A tetrahedron as STL has it, inside out and without one side.
+    corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    sides = [(0, 1, 2), (0, 3, 1), (1, 3, 2)]
+    stl = bytes(80) + struct.pack("<I", len(sides))
+    for side in sides:
+        stl += struct.pack("<12fH", 0, 0, 0, *[x for corner in side for x in corners[corner]], 0)
+    (folder / "cut.stl").write_bytes(stl)
+    preview = call(folder, "check cut.stl").expect(0).out
+    expect_words(preview, ["4 vertices", "3 boundary edges", "1 boundary loop\n", "of 3 edges, 3.41421 m long, at vertex",
+                           "--repair would change nothing", "with --fill-holes as well", "holes filled: 1"])
+    expect(not list(folder.glob("*.ply")), "check writes files")
+    expect_words(call(folder, "check cut.stl --repair --fill-holes").expect(0).out, ["nothing was written", "--out"])
+    done = call(folder, "check cut.stl --repair --fill-holes --out whole.ply").expect(0).out
+    expect_words(done, ["repaired:", "holes filled: 1", "triangles added: 1", "written: whole.ply"])
+    expect_words(call(folder, "check whole.ply").expect(0).out,
+                 ["closed, consistently oriented outward", "genus 0", "volume: 0.166667 m^3",
+                  "--repair would change nothing"])
+    expect_no_temporary(folder)
 
 
 @case

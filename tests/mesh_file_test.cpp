@@ -74,8 +74,10 @@ TEST_F(MeshTest, files_that_cannot_be_read_or_written)
     };
     EXPECT_EQ(message("read", "none.ply"), "there is no such file; check the path");
     EXPECT_EQ(message("read", "folder.ply"), "it is a folder; give the name of a mesh file");
-    EXPECT_EQ(message("read", "cube.STL"), "its ending is '.STL', but meshes end in .ply or .obj");
-    EXPECT_EQ(message("write", "cube"), "it has no ending, but meshes end in .ply or .obj");
+    EXPECT_EQ(message("read", "cube.3ds"),
+              "its ending is '.3ds', but meshes end in .ply, .obj, .stl, .off, .gltf or .glb");
+    EXPECT_EQ(message("write", "cube.stl"), "its ending is '.stl', but meshes are written as .ply or .obj");
+    EXPECT_EQ(message("write", "cube"), "it has no ending, but meshes are written as .ply or .obj");
     EXPECT_EQ(message("write", "folder.ply"), "it is a folder; give the name of a file");
     EXPECT_EQ(message("write", "none/cube.ply"),
               "there is no folder '" + (folder / "none").string() + "'; create it first");

@@ -12,10 +12,6 @@
 #include "mesh/disc.hpp"
 #include "test_meshes.hpp"
 
-#ifndef PLIANT_SHARED_DIR
-#define PLIANT_SHARED_DIR PLIANT_SOURCE_DIR "/../shared"
-#endif
-
 namespace pliant {
 namespace {
 
@@ -76,7 +72,7 @@ TEST(MeshInspection, tetrahedron_is_closed)
     EXPECT_EQ(report.bounds_max, (Vec3d{1, 1, 1}));
     EXPECT_EQ(describe(report),
               "4 vertices, 6 edges, 4 triangles in 1 component\n"
-              "surface: closed, consistently oriented, Euler characteristic 2\n"
+              "surface: closed, consistently oriented outward, Euler characteristic 2, genus 0\n"
               "area: 2.36603 m^2\n"
               "volume: 0.166667 m^3\n"
               "edge length: 1 to 1.41421 m, mean 1.20711 m\n"
@@ -193,7 +189,8 @@ TEST(MeshInspection, two_solids_at_one_vertex_are_two_fans)
     EXPECT_EQ(report.boundary_edges + report.non_manifold_edges, 0u);
     EXPECT_EQ(report.components, 1u);
     EXPECT_FALSE(report.closed);
-    EXPECT_NE(describe(report).find("1 non-manifold vertex (more than one fan)\n"), std::string::npos);
+    EXPECT_NE(describe(report).find("1 non-manifold vertex (more than one fan), first vertex 0\n"),
+              std::string::npos);
 }
 
 TEST(MeshInspection, degenerate_duplicate_isolated_coincident)

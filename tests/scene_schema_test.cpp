@@ -92,9 +92,17 @@ public:
     }
 
     template <class Inside>
-    void nested(const char* key, Inside inside)
+    void nested(const char* key, Inside inside, Presence presence = {})
     {
-        visit(property(key), std::string(key), inside);
+        visit(property(key, presence), std::string(key), inside);
+    }
+    template <class Thing>
+    void object(const char* key, const std::optional<Thing>&)
+    {
+        nested(key, [](auto& inside) {
+            const Thing thing{};
+            scene_format::fields(inside, thing);
+        });
     }
     template <class Thing>
     void object(const char* key, const Thing& thing)
@@ -115,7 +123,29 @@ public:
             const Cloth cloth;
             scene_format::fields(at, cloth);
         };
-        visit(property(key, scene_format::required).value("items", Json()), key, inside);
+        visit(property(key).value("items", Json()), key, inside);
+    }
+    void bodies(const char* key, const Scene&)
+    {
+        const auto inside = [](auto& at) {
+            const Cloth body = Cloth::soft_body({});
+            scene_format::body_fields(at, body);
+        };
+        visit(property(key).value("items", Json()), key, inside);
+    }
+    void body_shape(Names keys, const Cloth& cloth)
+    {
+        for (const char* key : keys) seen_.insert(key);
+        nested("mesh", [&](auto& inside) {
+            inside.mesh_file("file", SurfaceMesh{});
+            inside.number("scale", cloth.scale, scene_format::extent, "");
+        });
+        object("icosphere", IcosphereOptions{});
+        object("uv_sphere", UvSphereOptions{});
+        object("torus", TorusOptions{});
+        object("box", BoxOptions{});
+        object("capsule", CapsuleOptions{});
+        object("blob", BlobOptions{});
     }
     template <class Variant, class With, std::size_t i = 0>
     void one_of(const Variant& variant, Names keys, With with_alternative)

@@ -30,6 +30,14 @@ void check_outputs(const RunOptions& options, const Scene& scene);
 int run_command(const RunOptions& options);
 int list_command();
 int info_command();
-int check_command(const std::string& scene_or_mesh, const std::vector<std::string>& overrides);
+
+struct CheckOptions {
+    std::string scene_or_mesh;
+    std::vector<std::string> overrides;  ///< path=value, of a scene
+    bool repair = false;                 ///< a mesh, by `repair_options`
+    RepairOptions repair_options;
+    std::string out_file;  ///< for the repaired mesh; empty: it is not kept
+};
+int check_command(const CheckOptions& options);
 
 }  // namespace pliant::tool

@@ -136,6 +136,41 @@ void add_bench(CLI::App& app, BenchOptions& options)
     bench->add_option("--csv", options.csv_file, "All rows, CSV")->type_name("F.csv");
 }
 
+void add_check(CLI::App& app, CheckOptions& options)
+{
+    CLI::App* check =
+        app.add_subcommand("check", "Tell what is in a scene or a mesh, and whether it is good; mend a mesh");
+    check->footer(
+        "Examples:\n"
+        "  pliant check cloth_sphere\n"
+        "  pliant check scan.stl\n"
+        "  pliant check scan.stl --repair --weld 1e-5 --fill-holes --out scan.ply\n"
+        "A mesh that could be read is no error, whatever is found in it: the exit code is 0.\n");
+    check
+        ->add_option("file", options.scene_or_mesh,
+                     "A scene file, a built-in scene, or a mesh (.ply, .obj, .stl, .off, .gltf, .glb)")
+        ->required()
+        ->type_name("SCENE|MESH");
+    check->add_option("--set", options.overrides, "Change a value of the scene, as for pliant run")
+        ->type_name("PATH=VALUE")
+        ->allow_extra_args(false);
+    CLI::Option* repair = check->add_flag(
+        "--repair", options.repair,
+        "Mend a mesh: weld vertices, drop degenerate and duplicate triangles and unused vertices, "
+        "make the orientation consistent and outward");
+    check
+        ->add_option("--weld", options.repair_options.weld_tolerance,
+                     "With --repair: weld vertices this close, in m (default 0: at the same position)")
+        ->check(CLI::Range(0.0, 1e4))
+        ->type_name("TOLERANCE")
+        ->needs(repair);
+    check->add_flag("--fill-holes", options.repair_options.fill_holes, "With --repair: close boundary loops")
+        ->needs(repair);
+    check->add_option("--out", options.out_file, "With --repair: write the mended mesh, .ply or .obj")
+        ->type_name("FIXED.ply")
+        ->needs(repair);
+}
+
 int dispatch(int argc, char** argv)
 {
     CLI::App app("Pliant: cloth and soft bodies in real time, on any Vulkan GPU and on the CPU", "pliant");
@@ -149,16 +184,8 @@ int dispatch(int argc, char** argv)
     add_bench(app, bench_options);
     app.add_subcommand("list", "The built-in scenes");
     app.add_subcommand("info", "Backends and devices of this machine, with their limits");
-    CLI::App* check =
-        app.add_subcommand("check", "Tell what is in a scene or a mesh, and whether it is good");
-    std::string check_target;
-    std::vector<std::string> check_overrides;
-    check->add_option("file", check_target, "A scene file, a built-in scene, or a mesh (.ply, .obj)")
-        ->required()
-        ->type_name("SCENE|MESH");
-    check->add_option("--set", check_overrides, "Change a value of the scene, as for pliant run")
-        ->type_name("PATH=VALUE")
-        ->allow_extra_args(false);
+    CheckOptions check_options;
+    add_check(app, check_options);
 
     try {
         app.parse(argc, argv);
@@ -167,6 +194,7 @@ int dispatch(int argc, char** argv)
     } catch (const CLI::ParseError& error) {
         const char* command = app.got_subcommand("run")     ? "run "
                               : app.got_subcommand("bench") ? "bench "
+                              : app.got_subcommand("check") ? "check "
                                                             : "";
         std::fprintf(stderr, "pliant: %s; see 'pliant %s--help'\n", error.what(), command);
         return static_cast<int>(ErrorKind::bad_usage);
@@ -175,7 +203,7 @@ int dispatch(int argc, char** argv)
     if (app.got_subcommand("bench")) return bench_command(bench_options);
     if (app.got_subcommand("list")) return list_command();
     if (app.got_subcommand("info")) return info_command();
-    return check_command(check_target, check_overrides);
+    return check_command(check_options);
 }
 
 }  // namespace

@@ -141,8 +141,10 @@ private:
     {
         frames_.clear();
         for (std::size_t c = 0; c < simulation_.scene().cloth_count(); ++c) {
-            if (DeviceState* state = simulation_.device_state())
-                frames_.emplace_back(state->drawable(c));
+            // The nodes of soft bodies lie in an order, and against an origin, of their own.
+            const bool direct = simulation_.device_state() && simulation_.body_count() == 0;
+            if (direct)
+                frames_.emplace_back(simulation_.device_state()->drawable(c));
             else
                 frames_.emplace_back(
                     HostCloth{simulation_.positions(c), simulation_.normals(c), simulation_.strains(c)});
@@ -182,7 +184,7 @@ public:
           pictures_(simulation_, options, frames_)
     {
         if (!options.statistics_file.empty())
-            statistics_ = std::make_unique<StatisticsFile>(options.statistics_file);
+            statistics_ = std::make_unique<StatisticsFile>(options.statistics_file, simulation_.body_count());
         if (!options.cache_file.empty()) cache_ = make_cache_file(options.cache_file);
     }
 

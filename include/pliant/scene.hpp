@@ -67,6 +67,7 @@ enum class Method {
     mass_spring,  ///< springs alone, with explicit steps (the cloth paper, section 2)
     constraint,   ///< structural and shear springs that do not give beyond their limit, with implicit steps
     acad,         ///< springs that become constraints while they are stretched too far (the cloth paper)
+    volume,       ///< springs with explicit steps, and one constraint that keeps the volume of each soft body
 };
 /// What enforces constraints, of the methods constraint and acad.
 enum class Solver {
@@ -143,11 +144,68 @@ struct MeshOptions {
     double scale = 1.0;                    ///< multiplies the coordinates of the mesh
 };
 
-/// One piece of cloth: its shape at rest, its material, what holds it.
+/// Which springs cross the inside of a soft body.
+enum class InternalKind {
+    none,
+    opposite,  ///< from each vertex to the one nearest to where its inward normal leaves the body
+    nearest,   ///< from each vertex to the nearest ones that face it across the inside
+};
+/// Springs inside a soft body: without them its skin alone resists.
+struct InternalSprings {
+    InternalKind kind = InternalKind::none;
+    std::uint32_t neighbours = 1;  ///< of nearest: 1 to 64 for each vertex
+    std::uint32_t most = 0;        ///< springs at most, those of each vertex's first choice first; 0: all
+    double stiffness = 1000;       ///< N/m, 0 to 1e9
+    double damping = 0.01;         ///< N s/m, 0 to 1e6
+};
+
+/// A value at a time; in between it is interpolated linearly, before the first and after the last it stays.
+struct TimedValue {
+    double time = 0;   ///< s, increasing
+    double value = 1;  ///< of a target: V / V0, 0.01 to 100; of a pressure: Pa
+};
+
+/// Where the volume constraint of a soft body moves nodes: eq. (15) of the volume paper, put right. A node at
+/// the distance d of `centre` has the weight (cos(pi d / radius) + 1) / 2, and 0 beyond `radius`.
+struct VolumeFocus {
+    Vec3d centre;       ///< m, in the scene, before the first step
+    double radius = 1;  ///< m
+};
+
+/// What keeps the volume of a soft body.
+struct VolumeOptions {
+    bool constraint = true;  ///< of the method volume: false leaves the springs, and the pressure, alone
+    /// 1e-7 to 1: a step that leaves abs(V / V_target - 1) above this counts in VolumeReport::misses.
+    double tolerance = 1e-4;
+    std::vector<TimedValue> target;    ///< V / V0 over time; empty: 1
+    std::vector<TimedValue> pressure;  ///< Pa inside against outside, in addition; empty: 0
+    std::optional<VolumeFocus> focus;  ///< nothing: all nodes alike
+    std::vector<float> weights;        ///< one for each vertex, 0 to 1, instead of a focus; empty: none
+};
+
+/// A force and a torque on the nodes in a region, from the first step on.
+struct RegionForce {
+    Region box;
+    Vec3d force;   ///< N, shared equally by the nodes
+    Vec3d torque;  ///< N m about the middle of the nodes at the start; shared so that all turn alike
+};
+
+/// What makes a soft body of a cloth: its mesh is a closed surface.
+struct BodyOptions {
+    InternalSprings internal;
+    VolumeOptions volume;
+    std::vector<RegionForce> forces;
+};
+
+/// One piece of cloth, or the skin of a soft body: its shape at rest, its material, what holds it.
 struct Cloth {
     static Cloth sheet(const SheetOptions& options);
     static Cloth mesh(SurfaceMesh mesh, const MeshOptions& options = {});
     static Cloth disc(const DiscOptions& options);
+    /// A soft body: `mesh` must be closed and face outward. Its springs are `springs.structural`, along the
+    /// edges, and `body->internal`.
+    static Cloth soft_body(SurfaceMesh mesh, const BodyOptions& body = {}, const MeshOptions& options = {});
+    bool is_body() const { return body.has_value(); }
 
     Cloth& pin(const Attachment& attachment)
     {
@@ -171,6 +229,7 @@ struct Cloth {
     double damping = 0.1;      ///< 1/s; every velocity loses this fraction a second
     double thickness = 0.002;  ///< m; the distance that contact keeps between a node and a collider
     std::vector<Attachment> pins;
+    std::optional<BodyOptions> body;  ///< of a soft body
 };
 
 /// What a collider does with a node that enters it.

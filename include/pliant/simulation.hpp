@@ -63,6 +63,23 @@ struct FrameMeasures {
     std::uint64_t non_finite = 0;  ///< nodes with a position or velocity that is not finite
 };
 
+/// A soft body at the end of a frame.
+struct BodyMeasures {
+    std::size_t cloth = 0;  ///< its index in the scene
+    double volume = 0;      ///< m3
+    double ratio = 1;       ///< V / V0
+    double error = 0;       ///< V / V_target - 1; the target is V0 unless the scene changes it
+};
+
+/// Volumes of all soft bodies at the ends of all frames since the start.
+struct VolumeReport {
+    double error_max = 0;      ///< largest abs(V / V_target - 1)
+    double loss_max = 0;       ///< largest 1 - V / V_target, at least 0
+    double gain_max = 0;       ///< largest V / V_target - 1, at least 0
+    double loss_mean = 0;      ///< of the losses of all bodies and frames
+    std::uint64_t misses = 0;  ///< bodies times frames whose error exceeds their tolerance
+};
+
 /// What the constraint solver did since the start, over all steps and cloths. A residual is a force relative
 /// to the load of its step.
 struct SolverReport {
@@ -95,7 +112,9 @@ struct Report {
     bool device_lost = false;  ///< a step could not be run: the device, or the memory for it, was not there
     std::string failure;       ///< and why
     FrameMeasures measures;
-    SolverReport solver;  ///< zeros with the method mass_spring
+    SolverReport solver;  ///< zeros with the methods mass_spring and volume
+    std::vector<BodyMeasures> bodies;  ///< in the order of the scene; empty without soft bodies
+    VolumeReport volume;
     // The first non-finite node, when there is one.
     std::size_t bad_cloth = 0;
     std::uint64_t bad_node = 0;
@@ -138,7 +157,8 @@ public:
     const Report& report() const;
     std::vector<PassTime> pass_times() const;
 
-    /// Positions of a cloth in m, one for each node, row by row on a sheet. Read back from the device when
+    /// Positions of a cloth or soft body in m, one for each node, row by row on a sheet, in the order of its mesh
+    /// otherwise. Read back from the device when
     /// asked for; valid until the next call of advance().
     std::span<const Vec3> positions(const ClothHandle& cloth);
     std::span<const Vec3> positions(std::size_t cloth = 0);
@@ -164,6 +184,7 @@ public:
     std::string device_name() const;  ///< the GPU's, or the CPU's with the instruction set
     unsigned thread_count() const;
     std::uint64_t node_count() const;
+    std::size_t body_count() const;  ///< soft bodies among the cloths
     std::uint64_t spring_count() const;
     std::uint64_t triangle_count() const;
 
@@ -180,7 +201,7 @@ public:
     /// A sentence when the scene's step is larger than `stable_step`, else empty.
     std::string stability_warning() const;
 
-    /// The buffers of a cloth on the device, up to date and idle until the next advance(), which submits to
+    /// The buffers of a cloth (of a soft body there are none) on the device, up to date and idle until the next advance(), which submits to
     /// queue 0 of the family; nothing unless the backend is vulkan. Throws Error(device_failure) when the
     /// device is lost. `position` alternates between two buffers, so ask again after every advance().
     std::optional<DeviceBuffers> device_buffers(std::size_t cloth = 0);

@@ -24,6 +24,9 @@ struct FrameInput {
     bool colliders_rest = true;  ///< the same at every step
     /// By cloth: where its attached nodes are, a row for each step; none where the program attaches nothing.
     std::span<const std::vector<Vec3>> attached = {};
+    /// By cloth: what is wanted of its bodies at the end of each step, or once where that does not change; see
+    /// BodyModel::goal_at. Empty: what is wanted at the start.
+    std::span<const std::vector<VolumeGoal>> goals = {};
 
     /// Colliders at the end of a step of the frame; the calls that know no collider may ask with any index.
     std::span<const PlacedCollider> colliders_at(std::uint32_t step) const
@@ -33,6 +36,13 @@ struct FrameInput {
                                                           : std::span<const PlacedCollider>{};
     }
 };
+
+/// A collider as a cloth with coordinates of its own sees it.
+inline PlacedCollider seen_from(PlacedCollider placed, Vec3d origin)
+{
+    placed.centre = placed.centre - origin;
+    return placed;
+}
 
 /// A cloth's measures, merged over its nodes; see laws/measure.law.glsl.
 struct MeasureTotals {
@@ -53,6 +63,9 @@ public:
                       std::vector<float>& values) = 0;
     /// The root of the tree of measures after a program that computed it.
     virtual MeasureTotals measures(std::uint32_t cloth) = 0;
+
+    /// 6 V in m3 of the bodies of a cloth, after a program that measured it.
+    virtual std::vector<double> volumes(std::uint32_t cloth) = 0;
 
     /// The scalars of a cloth's constraint solver, by their numbers in kernels/planes.kernel.glsl.
     virtual std::vector<double> solver_scalars(std::uint32_t cloth) = 0;

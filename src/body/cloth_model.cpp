@@ -40,7 +40,10 @@ class PinnedNodes {
 public:
     PinnedNodes(const ClothModel& model) : model_(model) {}
 
-    std::vector<std::uint32_t> operator()(std::uint32_t index) const { return {index}; }
+    std::vector<std::uint32_t> operator()(std::uint32_t index) const
+    {
+        return {model_.node_of_vertex.empty() ? index : model_.node_of_vertex[index]};
+    }
     std::vector<std::uint32_t> operator()(Corner corner) const
     {
         const std::uint32_t last_row = model_.sheet->rows - 1, last_column = model_.sheet->columns - 1;
@@ -68,7 +71,7 @@ public:
     {
         std::vector<std::uint32_t> nodes;
         for (std::uint32_t i = 0; i < model_.node_count(); ++i) {
-            const Vec3d p = at(model_.positions, i);
+            const Vec3d p = at(model_.positions, i) + model_.origin;
             if (p.x >= region.min.x && p.x <= region.max.x && p.y >= region.min.y && p.y <= region.max.y &&
                 p.z >= region.min.z && p.z <= region.max.z)
                 nodes.push_back(i);
@@ -90,6 +93,8 @@ ClothModel::ClothModel(const Cloth& cloth, const Scene& scene)
 {
     if (const auto* options = std::get_if<SheetOptions>(&cloth.shape))
         build_sheet(cloth, *options);
+    else if (cloth.body)
+        build_body(cloth, scene);
     else if (const auto* disc = std::get_if<DiscOptions>(&cloth.shape))
         build_mesh(cloth, make_disc(disc->radius, disc->rings));
     else
@@ -97,6 +102,7 @@ ClothModel::ClothModel(const Cloth& cloth, const Scene& scene)
     velocities.assign(positions.size(), to_float(cloth.velocity));
     set_masses(cloth);
     set_pins(cloth);
+    if (body) finish_body(cloth);
 
     set_springs(cloth, scene);
     parameters.gravity = scene.gravity;
@@ -107,11 +113,11 @@ ClothModel::ClothModel(const Cloth& cloth, const Scene& scene)
     parameters.damping = cloth.damping;
     parameters.thickness = cloth.thickness;
 
-    const bool rows = method != Method::mass_spring && solver == Solver::paper;  // which number springs
+    const bool rows = uses_solver(method) && solver == Solver::paper;  // which number springs
     node_centric_ = is_sheet() && cloth.formulation != Formulation::spring_list && !rows;
     if (is_sheet() && !node_centric_) list_sheet_springs();
-    if (!is_sheet()) list_mesh_springs();
-    if (!node_centric_) list_neighbours();
+    if (!is_sheet() && !body) list_mesh_springs();
+    if (!node_centric_ && !body) list_neighbours();
     if (is_sheet()) {
         spring_count_ = sheet_spring_count(sheet->rows, sheet->columns);
         measured_spring_count_ = sheet_measured_spring_count(sheet->rows, sheet->columns);
@@ -129,7 +135,7 @@ ClothModel::ClothModel(const Cloth& cloth, const Scene& scene)
                 acad.activate_at;  // a spring cannot be pulled to its rest length and be a spring, too
         }
     }
-    if (method != Method::mass_spring) hierarchy = Hierarchy(*this);
+    if (uses_solver(method)) hierarchy = Hierarchy(*this);
 }
 
 void ClothModel::build_sheet(const Cloth& cloth, const SheetOptions& options)
@@ -152,7 +158,11 @@ void ClothModel::build_mesh(const Cloth& cloth, const SurfaceMesh& mesh)
     for (const Vec3& vertex : mesh.vertices)
         positions.push_back(to_float(cloth.position + rotate(rotation, to_double(vertex) * cloth.scale)));
     triangles_ = mesh.triangles;
+    list_node_triangles();
+}
 
+void ClothModel::list_node_triangles()
+{
     node_triangles.start.assign(positions.size() + 1, 0);
     for (const Triangle& t : triangles_)
         for (const std::uint32_t node : t) ++node_triangles.start[node + 1];
@@ -215,7 +225,7 @@ void ClothModel::set_pins(const Cloth& cloth)
             velocities[node] = {};
         }
         if (cloth.pins[p].keyframes.empty()) continue;
-        Vec3d centre{};
+        Vec3d centre{};  // against the origin of the model, as positions are
         for (const std::uint32_t node : nodes)
             centre = centre + at(positions, node) * (1.0 / static_cast<double>(nodes.size()));
         for (const std::uint32_t node : nodes)
@@ -250,7 +260,11 @@ void ClothModel::set_springs(const Cloth& cloth, const Scene& scene)
     newton = scene.newton_multigrid;
     paper = scene.paper;
     acad = scene.acad;
-    const SpringParameters classes[] = {cloth.springs.structural, cloth.springs.shear, cloth.springs.bend};
+    SpringParameters classes[] = {cloth.springs.structural, cloth.springs.shear, cloth.springs.bend};
+    if (cloth.body) {
+        classes[1] = {cloth.body->internal.stiffness, cloth.body->internal.damping};
+        classes[2] = {};
+    }
     for (std::size_t k = 0; k < spring_class_count; ++k) {
         const SpringParameters& given = classes[k];
         SpringRole role = given.role;
@@ -361,6 +375,13 @@ std::span<const Triangle> ClothModel::triangles() const
             }
     }
     return triangles_;
+}
+
+double ClothModel::mass() const
+{
+    double sum = 0;
+    for (const float m : masses) sum += double{m};
+    return sum;
 }
 
 double ClothModel::shortest_rest_length() const

@@ -7,12 +7,17 @@
 #include <span>
 #include <vector>
 
+#include "body/body_model.hpp"
 #include "body/hierarchy.hpp"
 #include "pliant/scene.hpp"
 
 namespace pliant {
 
-enum class SpringClass : std::uint32_t { structural = 0, shear = 1, bend = 2 };
+enum class SpringClass : std::uint32_t {
+    structural = 0,
+    shear = 1,  ///< of a soft body: the springs across its inside
+    bend = 2
+};
 constexpr std::size_t spring_class_count = 3;
 
 /// A spring between nodes i < j.
@@ -20,24 +25,6 @@ struct Spring {
     std::uint32_t i = 0, j = 0;
     SpringClass spring_class = SpringClass::structural;
     double rest_length = 0;  ///< m
-};
-
-/// The other end of a spring, seen from a node.
-struct Neighbour {
-    std::uint32_t node = 0;
-    std::uint32_t spring =
-        0;  ///< index into ClothModel::springs; the sign of its force follows from node order
-};
-
-/// Rows of different length in one array: row i is entries[start[i]] ... entries[start[i + 1] - 1].
-template <class Entry>
-struct Ragged {
-    std::vector<std::uint32_t> start;
-    std::vector<Entry> entries;
-    std::span<const Entry> row(std::size_t i) const
-    {
-        return {entries.data() + start[i], entries.data() + start[i + 1]};
-    }
 };
 
 /// One of the up to 12 springs of a sheet's node.
@@ -101,6 +88,9 @@ struct AttachmentMotion {
     std::vector<Keyframe> keyframes;
 };
 
+/// Methods that step by the constraint solver.
+constexpr bool uses_solver(Method method) { return method == Method::constraint || method == Method::acad; }
+
 class ClothModel {
 public:
     ClothModel(const Cloth& cloth, const Scene& scene);
@@ -113,9 +103,16 @@ public:
     bool is_sheet() const { return sheet.has_value(); }
     bool node_centric() const { return node_centric_; }
     bool feels_air() const { return parameters.air_density > 0; }
+    bool is_body() const { return body.has_value(); }
+    /// A step adds external_force to its nodes: wind, or the loads of a body.
+    bool has_external_force() const { return feels_air() || (body && !body->loads.empty()); }
+    /// Springs, and the ring of neighbours, are gathered in one pass, which needs no list of forces.
+    bool gathers_rings() const { return body && !spring_list; }
 
     /// Triangles; those of a sheet are made when first asked for.
     std::span<const Triangle> triangles() const;
+
+    double mass() const;  ///< kg
 
     /// m; infinite without springs.
     double shortest_rest_length() const;
@@ -152,13 +149,34 @@ public:
     Hierarchy hierarchy;  ///< of the constraint methods
     // Only when not node-centric:
     std::vector<Spring> springs;   ///< sorted by (i, j)
-    Ragged<Neighbour> neighbours;  ///< per node, sorted by the other node
+    Ragged<Neighbour> neighbours;  ///< per node, sorted by the other node; of a body see BodyModel::links
+    bool spring_list = false;      ///< of a body: forces by the list of springs, with the method mass_spring
     // Only for a mesh:
     Ragged<std::uint32_t> node_triangles;  ///< per node the triangles around it, ascending
 
+    // Only for soft bodies:
+    std::optional<BodyModel> body;
+    std::span<const Neighbour> ring_of(std::size_t node) const
+    {
+        return {neighbours.entries.data() + neighbours.start[node], neighbours.entries.data() + body->links[node]};
+    }
+    std::span<const Neighbour> links_of(std::size_t node) const
+    {
+        return {neighbours.entries.data() + body->links[node],
+                neighbours.entries.data() + neighbours.start[node + 1]};
+    }
+    Vec3d origin;  ///< m: positions are against it; 0 but for a body, which is stepped near its own origin
+    /// The node of each vertex of the body's mesh; empty where they are the same.
+    std::vector<std::uint32_t> node_of_vertex;
+
 private:
+    void build_body(const Cloth& cloth, const Scene& scene);
+    void list_body_springs(const BodyOptions& options, const Ragged<std::uint32_t>& rings);
+    void finish_body(const Cloth& cloth);
+    void set_loads(const Cloth& cloth);
     void build_sheet(const Cloth& cloth, const SheetOptions& options);
     void build_mesh(const Cloth& cloth, const SurfaceMesh& mesh);
+    void list_node_triangles();
     void set_masses(const Cloth& cloth);
     void set_pins(const Cloth& cloth);
     void set_springs(const Cloth& cloth, const Scene& scene);

@@ -6,4 +6,5 @@
 #include "air.law.glsl"
 #include "limit.law.glsl"
 #include "normal.law.glsl"
+#include "volume.law.glsl"
 #include "measure.law.glsl"

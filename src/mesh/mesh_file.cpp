@@ -18,10 +18,12 @@ namespace {
 struct MeshFormat {
     std::string_view ending;
     SurfaceMesh (*read)(const MeshSource&);
-    void (*write)(std::ostream&, const SurfaceMesh&);
+    void (*write)(std::ostream&, const SurfaceMesh&);  ///< null: it is only read
 };
-constexpr std::array formats = {MeshFormat{".ply", read_ply, write_ply},
-                                MeshFormat{".obj", read_obj, write_obj}};
+constexpr std::array formats = {
+    MeshFormat{".ply", read_ply, write_ply}, MeshFormat{".obj", read_obj, write_obj},
+    MeshFormat{".stl", read_stl, nullptr},   MeshFormat{".off", read_off, nullptr},
+    MeshFormat{".gltf", read_gltf, nullptr}, MeshFormat{".glb", read_gltf, nullptr}};
 
 [[noreturn]] void fail(std::string_view action, const std::filesystem::path& file, const std::string& reason)
 {
@@ -29,13 +31,26 @@ constexpr std::array formats = {MeshFormat{".ply", read_ply, write_ply},
                 "cannot " + std::string(action) + " '" + file.string() + "': " + reason);
 }
 
-const MeshFormat& format_of(std::string_view action, const std::filesystem::path& file)
+/// ".ply, .obj or .stl", those that are written or all.
+std::string endings(bool written)
 {
+    std::vector<std::string> names;
     for (const MeshFormat& format : formats)
-        if (format.ending == lower_case_ending(file)) return format;
+        if (!written || format.write) names.emplace_back(format.ending);
+    std::string list = names[0];
+    for (std::size_t i = 1; i < names.size(); ++i) list += (i + 1 < names.size() ? ", " : " or ") + names[i];
+    return list;
+}
+
+const MeshFormat& format_of(const std::filesystem::path& file, bool written)
+{
+    const std::string found = lower_case_ending(file);
+    for (const MeshFormat& format : formats)
+        if (format.ending == found && (!written || format.write)) return format;
     const std::string ending = file.extension().string();
-    const std::string found = ending.empty() ? "it has no ending" : "its ending is " + in_quotes(ending);
-    fail(action, file, found + ", but meshes end in .ply or .obj");
+    fail(written ? "write" : "read", file,
+         (ending.empty() ? "it has no ending" : "its ending is " + in_quotes(ending)) + ", but meshes " +
+             (written ? "are written as " : "end in ") + endings(written));
 }
 
 std::string file_contents(const std::filesystem::path& file)
@@ -64,9 +79,15 @@ std::string file_contents(const std::filesystem::path& file)
 
 }  // namespace
 
+bool is_mesh_file(const std::filesystem::path& file)
+{
+    return std::ranges::find(formats, std::string_view(lower_case_ending(file)), &MeshFormat::ending) !=
+           formats.end();
+}
+
 SurfaceMesh read_mesh(const std::filesystem::path& file)
 {
-    const MeshFormat& format = format_of("read", file);
+    const MeshFormat& format = format_of(file, false);
     try {
         const std::string contents = file_contents(file);
         SurfaceMesh mesh = format.read({file.string(), contents});
@@ -79,7 +100,7 @@ SurfaceMesh read_mesh(const std::filesystem::path& file)
 
 void write_mesh(const std::filesystem::path& file, const SurfaceMesh& mesh)
 {
-    const MeshFormat& format = format_of("write", file);
+    const MeshFormat& format = format_of(file, true);
     // What is written can be read again.
     if (mesh.vertices.empty()) fail("write", file, "the mesh has no vertices");
     require_valid(mesh);

@@ -23,6 +23,9 @@ struct MeshSource {
 
 SurfaceMesh read_ply(const MeshSource& source);
 SurfaceMesh read_obj(const MeshSource& source);
+SurfaceMesh read_stl(const MeshSource& source);
+SurfaceMesh read_off(const MeshSource& source);
+SurfaceMesh read_gltf(const MeshSource& source);
 
 void write_ply(std::ostream& out, const SurfaceMesh& mesh);
 void write_obj(std::ostream& out, const SurfaceMesh& mesh);

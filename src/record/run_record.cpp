@@ -22,12 +22,15 @@ nlohmann::ordered_json solver_summary(const Scene& scene, const SolverReport& re
 
 }  // namespace
 
-StatisticsFile::StatisticsFile(const std::filesystem::path& file) : file_(file)
+StatisticsFile::StatisticsFile(const std::filesystem::path& file, std::size_t bodies) : file_(file)
 {
     file_.stream()
         << "frame,time_s,max_stretch,mean_stretch,max_penetration_m,max_speed_m_per_s,kinetic_energy_J,"
            "elastic_energy_J,potential_energy_J,non_finite_nodes,wall_ms,newton,iterations,residual,"
-           "active_constraints,energy_lost_J\n";
+           "active_constraints,energy_lost_J";
+    if (bodies > 0) file_.stream() << ",volume_error";
+    for (std::size_t k = 0; k < bodies; ++k) file_.stream() << ",volume_" << k << "_m3";
+    file_.stream() << '\n';
 }
 
 void StatisticsFile::add(const Report& report, double wall_milliseconds)
@@ -36,12 +39,24 @@ void StatisticsFile::add(const Report& report, double wall_milliseconds)
     char line[512];
     const SolverReport& s = report.solver;
     std::snprintf(
-        line, sizeof line, "%llu,%.9g,%.6g,%.6g,%.6g,%.6g,%.9g,%.9g,%.9g,%llu,%.4g,%u,%u,%.6g,%llu,%.9g\n",
+        line, sizeof line, "%llu,%.9g,%.6g,%.6g,%.6g,%.6g,%.9g,%.9g,%.9g,%llu,%.4g,%u,%u,%.6g,%llu,%.9g",
         static_cast<unsigned long long>(report.frames), report.simulated_seconds, m.max_stretch,
         m.mean_stretch, m.max_penetration, m.max_speed, m.kinetic_energy, m.elastic_energy,
         m.potential_energy, static_cast<unsigned long long>(m.non_finite), wall_milliseconds, s.newton_last,
         s.iterations_last, s.residual_last, static_cast<unsigned long long>(s.active_last), s.energy_lost);
     file_.stream() << line;
+    if (!report.bodies.empty()) {
+        double error = 0;
+        for (const BodyMeasures& body : report.bodies)
+            if (std::abs(body.error) > std::abs(error)) error = body.error;
+        std::snprintf(line, sizeof line, ",%.6g", error);
+        file_.stream() << line;
+    }
+    for (const BodyMeasures& body : report.bodies) {
+        std::snprintf(line, sizeof line, ",%.9g", body.volume);
+        file_.stream() << line;
+    }
+    file_.stream() << '\n';
 }
 
 void RunSummary::add_frame(const Report& report)
@@ -77,6 +92,8 @@ std::map<std::string, double> RunSummary::values(Simulation& simulation) const
             highest = std::max<double>(highest, x.y);
         }
     const double wall = std::max(report.wall_seconds, 1e-9);
+    double ratio = 0;
+    for (const BodyMeasures& body : report.bodies) ratio += body.ratio / static_cast<double>(report.bodies.size());
     return {{"nodes", static_cast<double>(simulation.node_count())},
             {"springs", static_cast<double>(simulation.spring_count())},
             {"triangles", static_cast<double>(simulation.triangle_count())},
@@ -99,7 +116,12 @@ std::map<std::string, double> RunSummary::values(Simulation& simulation) const
             {"solver.iterations_max", static_cast<double>(report.solver.iterations_max)},
             {"solver.residual_max", report.solver.residual_max},
             {"solver.energy_lost", report.solver.energy_lost},
-            {"solver.active_max", static_cast<double>(report.solver.active_max)}};
+            {"solver.active_max", static_cast<double>(report.solver.active_max)},
+            {"volume_error_max", report.volume.error_max},
+            {"volume_loss_max", report.volume.loss_max},
+            {"volume_gain_max", report.volume.gain_max},
+            {"volume_loss_mean", report.volume.loss_mean},
+            {"volume_ratio_final", ratio}};
 }
 
 void RunSummary::write(const std::filesystem::path& file, Simulation& simulation, double wall_seconds) const
@@ -124,6 +146,12 @@ void RunSummary::write(const std::filesystem::path& file, Simulation& simulation
          {"frames_per_second", "real_time_factor", "max_stretch", "max_stretch_peak", "mean_stretch",
           "max_penetration", "kinetic_energy", "elastic_energy", "lowest_height", "highest_height"})
         summary[key] = numbers.at(key);
+    if (simulation.body_count() > 0) {
+        for (const char* key : {"volume_error_max", "volume_loss_max", "volume_gain_max", "volume_loss_mean",
+                                "volume_ratio_final"})
+            summary[key] = numbers.at(key);
+        summary["volume_misses"] = simulation.report().volume.misses;
+    }
     summary["finite"] = simulation.report().finite;
     summary["state_hash"] = hash_text(simulation.state_hash());
     const SolverReport& solver = simulation.report().solver;

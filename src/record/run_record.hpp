@@ -17,7 +17,8 @@ namespace pliant {
 /// mass_spring.
 class StatisticsFile {
 public:
-    explicit StatisticsFile(const std::filesystem::path& file);
+    /// `bodies` soft bodies: each has a column with its volume.
+    explicit StatisticsFile(const std::filesystem::path& file, std::size_t bodies = 0);
     /// The state after a frame; `wall_milliseconds` is what its simulation took.
     void add(const Report& report, double wall_milliseconds);
     void finish() { file_.commit(); }

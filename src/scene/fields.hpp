@@ -9,7 +9,8 @@
 //   object(key, thing)                    the same for a thing that has `fields`
 //   list(key, things)                     an array of such objects
 //   one_of(variant, keys, with)           exactly one of the keys, which names the alternative
-//   and what a file says in another way than a Scene: format_version, step_length, mesh_file, cloths, checks
+//   and what a file says in another way than a Scene: format_version, step_length, mesh_file, body_shape, cloths,
+//   bodies, checks
 #pragma once
 
 #include <array>
@@ -18,6 +19,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "pliant/mesh_generators.hpp"
 #include "pliant/scene.hpp"
 #include "scene/field.hpp"
 
@@ -27,7 +29,7 @@ enum class Presence { optional, required };
 inline constexpr Presence required = Presence::required;
 
 // Names in the order of their enumerations.
-inline constexpr std::array method_names{"mass_spring", "constraint", "acad"};
+inline constexpr std::array method_names{"mass_spring", "constraint", "acad", "volume"};
 inline constexpr std::array solver_names{"newton_multigrid", "paper"};
 inline constexpr std::array role_names{"automatic", "spring", "constraint", "off"};
 inline constexpr std::array preconditioner_names{"multigrid", "jacobi", "none"};
@@ -38,8 +40,11 @@ inline constexpr std::array response_names{"coulomb", "paper"};
 inline constexpr std::array colour_names{"checker", "strain"};
 inline constexpr std::array corner_names{"top_left", "top_right", "bottom_left", "bottom_right"};
 inline constexpr std::array edge_names{"top", "bottom", "left", "right"};
+inline constexpr std::array internal_names{"none", "opposite", "nearest"};
 // Keys in the order of their variants' alternatives.
 inline constexpr std::array shape_keys{"sheet", "mesh", "disc"};
+inline constexpr std::array body_shape_keys{"mesh",  "icosphere", "uv_sphere", "torus",
+                                            "box", "capsule",   "blob"};
 inline constexpr std::array pin_keys{"index", "corner", "edge", "box"};
 inline constexpr std::array collider_keys{"sphere", "plane", "box", "capsule"};
 /// Numbers of the summary that a scene may check.
@@ -64,7 +69,12 @@ inline constexpr std::array check_names{"max_stretch",
                                         "solver.iterations_max",
                                         "solver.residual_max",
                                         "solver.energy_lost",
-                                        "solver.active_max"};
+                                        "solver.active_max",
+                                        "volume_error_max",
+                                        "volume_loss_max",
+                                        "volume_gain_max",
+                                        "volume_loss_mean",
+                                        "volume_ratio_final"};
 
 inline constexpr std::uint32_t max_nodes = 16'777'216;  // 2^24: a node's index is exact in a float, too
 constexpr auto longest_side = max_nodes / 2;            // of a sheet with two rows
@@ -189,6 +199,111 @@ void fields(auto& at, Is<Cloth> auto& cloth)
     at.list("pins", cloth.pins);
 }
 
+// Shapes of soft bodies; the generators themselves check that their numbers fit each other.
+inline constexpr Range generated_length = above(0, 1e4);
+
+void fields(auto& at, Is<IcosphereOptions> auto& sphere)
+{
+    at.number("radius", sphere.radius, generated_length, "m");
+    at.number("frequency", sphere.frequency, {1, 1024}, "parts of an edge");
+}
+
+void fields(auto& at, Is<UvSphereOptions> auto& sphere)
+{
+    at.number("radius", sphere.radius, generated_length, "m");
+    at.number("rings", sphere.rings, {2, 4096}, "bands");
+    at.number("segments", sphere.segments, {3, 8192}, "around");
+}
+
+void fields(auto& at, Is<TorusOptions> auto& torus)
+{
+    at.number("major_radius", torus.major_radius, generated_length, "m");
+    at.number("minor_radius", torus.minor_radius, generated_length, "m");
+    at.number("major_segments", torus.major_segments, {3, 8192}, "around");
+    at.number("minor_segments", torus.minor_segments, {3, 8192}, "around");
+}
+
+void fields(auto& at, Is<BoxOptions> auto& box)
+{
+    at.vector("size", box.size, generated_length, "m");
+    at.number("faces", box.faces, {1, 1024}, "squares");
+}
+
+void fields(auto& at, Is<CapsuleOptions> auto& capsule)
+{
+    at.number("radius", capsule.radius, generated_length, "m");
+    at.number("length", capsule.length, generated_length, "m");
+    at.number("cap_rings", capsule.cap_rings, {1, 4096}, "bands");
+    at.number("bands", capsule.bands, {1, 4096}, "bands");
+    at.number("segments", capsule.segments, {3, 8192}, "around");
+}
+
+void fields(auto& at, Is<BlobOptions> auto& blob)
+{
+    at.number("height", blob.height, generated_length, "m");
+    at.number("vertices", blob.vertices, {1'000, 500'000}, "vertices");
+}
+
+void fields(auto& at, Is<InternalSprings> auto& springs)
+{
+    at.choice("kind", springs.kind, internal_names);
+    at.number("neighbours", springs.neighbours, {1, 64}, "springs");
+    at.number("most", springs.most, {0, 100'000'000}, "springs");
+    at.number("stiffness", springs.stiffness, {0, 1e9}, "N/m");
+    at.number("damping", springs.damping, {0, 1e6}, "N s/m");
+}
+
+void fields(auto& at, Is<TimedValue> auto& value)
+{
+    at.number("time", value.time, {0, 1e6}, "s", required);
+    at.number("value", value.value, {-1e9, 1e9}, "", required);
+}
+
+void fields(auto& at, Is<VolumeFocus> auto& focus)
+{
+    at.vector("centre", focus.centre, coordinate, "m", required);
+    at.number("radius", focus.radius, extent, "m", required);
+}
+
+void fields(auto& at, Is<VolumeOptions> auto& volume)
+{
+    at.flag("constraint", volume.constraint);
+    at.number("tolerance", volume.tolerance, {1e-7, 1}, "");
+    at.list("target", volume.target);
+    at.list("pressure", volume.pressure);
+    at.object("focus", volume.focus);
+}
+
+void fields(auto& at, Is<RegionForce> auto& force)
+{
+    at.nested("box", [&](auto& inside) { fields(inside, force.box); }, required);
+    at.vector("force", force.force, {-1e9, 1e9}, "N");
+    at.vector("torque", force.torque, {-1e9, 1e9}, "N m");
+}
+
+/// A cloth as a soft body: the same thing, with other keys.
+void body_fields(auto& at, Is<Cloth> auto& cloth)
+{
+    at.name("name", cloth.name);
+    at.body_shape(body_shape_keys, cloth);
+    at.number("density", cloth.density, above(0, 1e6), "kg/m2");
+    at.number("node_mass", cloth.node_mass, above(0, 1e6), "kg");
+    at.vector("position", cloth.position, coordinate, "m");
+    at.vector("rotation", cloth.rotation, angle, "degrees");
+    at.vector("velocity", cloth.velocity, {-1e4, 1e4}, "m/s");
+    at.nested("springs", [&](auto& inside) {
+        inside.number("stiffness", cloth.springs.structural.stiffness, {0, 1e9}, "N/m");
+        inside.number("damping", cloth.springs.structural.damping, {0, 1e6}, "N s/m");
+        inside.object("internal", cloth.body->internal);
+    });
+    at.choice("formulation", cloth.formulation, formulation_names);
+    at.object("volume", cloth.body->volume);
+    at.list("forces", cloth.body->forces);
+    at.number("damping", cloth.damping, {0, 1'000}, "1/s");
+    at.number("thickness", cloth.thickness, {0, 1}, "m");
+    at.list("pins", cloth.pins);
+}
+
 void contact_fields(auto& at, auto& shape)
 {
     at.number("friction", shape.friction, {0, 10}, "");
@@ -274,6 +389,7 @@ void fields(auto& at, Is<Scene> auto& scene)
     at.vector("gravity", scene.gravity, {-1e4, 1e4}, "m/s2");
     at.object("air", scene.air);
     at.cloths("cloths", scene);
+    at.bodies("bodies", scene);
     at.list("colliders", scene.colliders);
     at.object("camera", scene.camera);
     at.checks("check", scene.checks);

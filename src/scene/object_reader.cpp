@@ -175,6 +175,47 @@ void ObjectReader::cloths(const char* key, Scene& scene)
     });
 }
 
+/// A mesh from a file, or one that is made here: either way the body has it from now on.
+void ObjectReader::body_shape(Names keys, Cloth& cloth)
+{
+    const std::size_t index = the_only_key(keys);
+    if (index == keys.size()) return;
+    const char* key = keys[index];
+    const auto made = [&](auto options, SurfaceMesh (*make)(const decltype(options)&)) {
+        object(key, options);
+        try {
+            return make(options);
+        } catch (const Error& error) {
+            throw FieldError(path_of(key), "cannot be made: " + std::string(error.what()));
+        }
+    };
+    SurfaceMesh mesh;
+    switch (index) {
+        case 0:
+            nested(key, [&](ObjectReader& inside) {
+                inside.mesh_file("file", mesh);
+                inside.number("scale", cloth.scale, extent, "");
+            });
+            break;
+        case 1: mesh = made(IcosphereOptions{}, icosphere_mesh); break;
+        case 2: mesh = made(UvSphereOptions{}, uv_sphere_mesh); break;
+        case 3: mesh = made(TorusOptions{}, torus_mesh); break;
+        case 4: mesh = made(BoxOptions{}, box_mesh); break;
+        case 5: mesh = made(CapsuleOptions{}, capsule_mesh); break;
+        default: mesh = made(BlobOptions{}, blob_mesh); break;
+    }
+    cloth.shape = std::move(mesh);
+}
+
+void ObjectReader::bodies(const char* key, Scene& scene)
+{
+    each(key, [&](ObjectReader& inside) {
+        Cloth cloth = Cloth::soft_body({});
+        body_fields(inside, cloth);
+        scene.add(std::move(cloth));
+    });
+}
+
 void ObjectReader::checks(const char* key, std::vector<Check>& checks)
 {
     nested(key, [&](ObjectReader& inside) {

@@ -42,15 +42,21 @@ public:
     }
 
     template <class Inside>
-    void nested(const char* key, Inside inside)
+    void nested(const char* key, Inside inside, Presence presence = {})
     {
-        if (const Json* value = find(key)) read(*value, path_of(key), folder_, inside);
+        if (const Json* value = find(key, presence)) read(*value, path_of(key), folder_, inside);
     }
 
     template <class Thing>
     void object(const char* key, Thing& thing)
     {
         nested(key, [&](ObjectReader& inside) { fields(inside, thing); });
+    }
+    /// One that need not be there.
+    template <class Thing>
+    void object(const char* key, std::optional<Thing>& thing)
+    {
+        nested(key, [&](ObjectReader& inside) { fields(inside, thing.emplace()); });
     }
 
     template <class Thing>
@@ -69,7 +75,9 @@ public:
     void format_version(const char* key);
     void step_length(const char* key, TimeOptions& time);
     void mesh_file(const char* key, SurfaceMesh& mesh);
+    void body_shape(Names keys, Cloth& cloth);
     void cloths(const char* key, Scene& scene);
+    void bodies(const char* key, Scene& scene);
     void checks(const char* key, std::vector<Check>& checks);
 
 private:

@@ -40,6 +40,14 @@ Cloth Cloth::disc(const DiscOptions& options)
     return cloth;
 }
 
+Cloth Cloth::soft_body(SurfaceMesh surface, const BodyOptions& body, const MeshOptions& options)
+{
+    Cloth cloth = mesh(std::move(surface), options);
+    cloth.name = "body";
+    cloth.body = body;
+    return cloth;
+}
+
 ClothHandle& ClothHandle::pin(const Attachment& attachment)
 {
     cloth_->pin(attachment);

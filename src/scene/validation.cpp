@@ -81,7 +81,7 @@ public:
     }
 
     template <class Inside>
-    void nested(const char* key, Inside inside) const
+    void nested(const char* key, Inside inside, Presence = {}) const
     {
         Checker child(member_path(path_, key));
         inside(child);
@@ -90,6 +90,11 @@ public:
     void object(const char* key, const Thing& thing) const
     {
         nested(key, [&](Checker& child) { child.check(thing); });
+    }
+    template <class Thing>
+    void object(const char* key, const std::optional<Thing>& thing) const
+    {
+        if (thing) object(key, *thing);
     }
     template <class Thing>
     void list(const char* key, const std::vector<Thing>& things) const
@@ -120,10 +125,28 @@ public:
                     fail("has the vertex " + std::to_string(vertex) + " in triangle " + std::to_string(i) +
                          ", but only " + std::to_string(mesh.vertices.size()) + " vertices");
     }
+    void body_shape(Names, const Cloth& cloth) const
+    {
+        if (const auto* mesh = std::get_if<SurfaceMesh>(&cloth.shape))
+            nested("mesh", [&](const Checker& inside) { inside.mesh_file("file", *mesh); });
+        else
+            fail("is a soft body of a sheet or disc, but needs a closed mesh");
+        require_number(member_path(path_, "mesh.scale"), cloth.scale, extent, "", NumberKind::real);
+    }
     void cloths(const char* key, const Scene& scene) const
     {
-        for (std::size_t i = 0; i < scene.cloth_count(); ++i)
-            Checker(element_path(member_path(path_, key), i)).check(scene.cloth(i));
+        for (std::size_t i = 0, number = 0; i < scene.cloth_count(); ++i)
+            if (!scene.cloth(i).is_body())
+                Checker(element_path(member_path(path_, key), number++)).check(scene.cloth(i));
+    }
+    void bodies(const char* key, const Scene& scene) const
+    {
+        for (std::size_t i = 0, number = 0; i < scene.cloth_count(); ++i) {
+            if (!scene.cloth(i).is_body()) continue;
+            const Checker inside(element_path(member_path(path_, key), number++));
+            body_fields(inside, scene.cloth(i));
+            inside.body_relations(scene.cloth(i), scene.method);
+        }
     }
     void checks(const char* key, const std::vector<Check>& checks) const
     {
@@ -157,6 +180,46 @@ private:
                     "is " + number_text(keyframes[i].time) +
                         " s, but must be later than the keyframe before it, " +
                         number_text(keyframes[i - 1].time) + " s");
+    }
+
+    /// Values over time, in order and within their range.
+    void timed(const char* key, const std::vector<TimedValue>& values, const Range& range, const char* unit) const
+    {
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            const std::string path = element_path(key, i);
+            require_number(member_path(path_, path + ".value"), values[i].value, range, unit, NumberKind::real);
+            require(i == 0 || values[i].time > values[i - 1].time, path + ".time",
+                    "is " + number_text(values[i].time) + " s, but must be later than the one before it");
+        }
+    }
+
+    void relations(const VolumeOptions& volume) const
+    {
+        timed("target", volume.target, {0.01, 100}, "");
+        timed("pressure", volume.pressure, {-1e9, 1e9}, "Pa");
+        require(!volume.focus || volume.weights.empty(), "focus",
+                "is given beside weights of the vertices, but only one of them can say where the volume is kept");
+        for (const float weight : volume.weights)
+            require(weight >= 0 && weight <= 1, "weights",
+                    "has " + number_text(double{weight}) + ", but a weight must be between 0 and 1");
+    }
+
+    void body_relations(const Cloth& cloth, Method method) const
+    {
+        require(!(cloth.density && cloth.node_mass), "node_mass",
+                "is given beside density, but only one of them can say what the body weighs");
+        const std::vector<float>& weights = cloth.body->volume.weights;
+        require(weights.empty() || weights.size() == node_count(cloth), "volume.weights",
+                "has " + std::to_string(weights.size()) + " weights, but the mesh has " +
+                    std::to_string(node_count(cloth)) + " vertices");
+        require(cloth.formulation != Formulation::spring_list ||
+                    (method == Method::mass_spring && cloth.body->volume.pressure.empty()),
+                "formulation", "is spring_list, but volume and pressure need what node_centric gathers: use automatic");
+        require(method == Method::mass_spring || method == Method::volume, "springs",
+                "are stepped by the methods mass_spring and volume alone, but the method of the scene is " +
+                    std::string(name_of(method)));
+        for (std::size_t i = 0; i < cloth.pins.size(); ++i)
+            relations(cloth, cloth.pins[i].where, element_path("pins", i));
     }
 
     void relations(const Plane& plane) const
@@ -226,8 +289,8 @@ private:
                                                               {"shear", springs.shear.role},
                                                               {"bend", springs.bend.role}};
         const std::string reason = method == Method::acad
-                                       ? "the method acad makes its own constraints of springs"
-                                       : "the method mass_spring has no constraints";
+                                       ? std::string("the method acad makes its own constraints of springs")
+                                       : "the method " + std::string(name_of(method)) + " has no constraints of springs";
         for (const auto& [name, role] : classes)
             require(role != SpringRole::constraint || method == Method::constraint,
                     cloth + ".springs." + name + ".role",
@@ -236,12 +299,15 @@ private:
 
     void relations(const Scene& scene) const
     {
-        require(scene.cloth_count() > 0, "cloths", "is empty, but a scene needs at least one cloth");
+        require(scene.cloth_count() > 0, "cloths", "is empty, but a scene needs at least one cloth, or one of bodies");
         std::uint64_t total = 0;
+        std::size_t cloths = 0, bodies = 0;
         for (std::size_t i = 0; i < scene.cloth_count(); ++i) {
-            roles(scene.cloth(i).springs, scene.method, element_path("cloths", i));
+            const bool body = scene.cloth(i).is_body();
+            const std::string path = element_path(body ? "bodies" : "cloths", body ? bodies++ : cloths++);
+            if (!body) roles(scene.cloth(i).springs, scene.method, path);
             total += node_count(scene.cloth(i));
-            require(total <= max_nodes, element_path("cloths", i),
+            require(total <= max_nodes, path,
                     "brings the scene to " + std::to_string(total) + " nodes, but there may be at most " +
                         std::to_string(max_nodes) + " nodes");
         }

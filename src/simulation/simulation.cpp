@@ -6,6 +6,7 @@
 #include <cstring>
 #include <map>
 #include <string_view>
+#include <utility>
 
 #include "backend/cpu/kernels.hpp"
 #include "backend/pass_runner.hpp"
@@ -74,14 +75,14 @@ public:
     {
         validate(scene);
         cpu::choose_kernels(options.instruction_set);  // a name that does not exist is wrong on every backend
-        models.reserve(scene.cloth_count());
-        for (std::size_t c = 0; c < scene.cloth_count(); ++c) models.emplace_back(scene.cloth(c), scene);
+        make_models();
         stable_step = std::numeric_limits<double>::infinity();
         for (const ClothModel& model : models) stable_step = std::min(stable_step, model.stable_step());
         refuse_too_many_steps();
         colliders_rest = all_rest(scene.colliders);
         place_colliders(1, 0);
-        read_backs.resize(models.size());
+        read_backs.resize(scene.cloth_count());
+        read_models.resize(models.size());
         report.failure.reserve(256);
         try {
             start_runner(options);
@@ -93,6 +94,20 @@ public:
             start_runner(options);
         }
         take_measures();
+    }
+
+    /// A model of each cloth, and of soft bodies that can be stepped as one.
+    void make_models()
+    {
+        models.reserve(scene.cloth_count());
+        for (std::size_t c = 0; c < scene.cloth_count(); ++c) {
+            ClothModel model(scene.cloth(c), scene);
+            ClothPlace place{static_cast<std::uint32_t>(models.size()), 0, model.node_count(), 0,
+                             std::exchange(model.node_of_vertex, {})};
+            models.push_back(std::move(model));
+            if (models.back().is_body()) report.bodies.push_back({c});
+            places.push_back(std::move(place));
+        }
     }
 
     /// Makes the runner and lets it measure the start.
@@ -169,11 +184,12 @@ public:
         const Program& program = frame_program(steps);
         place_colliders(steps, step);
         place_attached(steps, step);
+        place_goals(steps, step);
         runner->run(program, input(step));
         parity = program.parity_after;
         report.simulated_seconds = on_frame(report.simulated_seconds + steps * step, steps * step);
         report.steps += steps;
-        if (scene.method != Method::mass_spring) count_solves();
+        if (uses_solver(scene.method)) count_solves();
     }
 
     /// Adds the solver's counters of the program that has just run.
@@ -260,9 +276,26 @@ public:
         }
     }
 
+    /// The volumes and pressures of bodies at the end of each step.
+    void place_goals(std::uint32_t steps, double step)
+    {
+        goals.resize(models.size());
+        for (std::size_t c = 0; c < models.size(); ++c) {
+            if (!models[c].body) continue;
+            const BodyModel& body = *models[c].body;
+            const std::uint32_t rows = body.goals_move() ? steps : 1;
+            goals[c].resize(rows * body.parts.size());
+            for (std::size_t s = 0; s < rows; ++s)
+                for (std::size_t k = 0; k < body.parts.size(); ++k)
+                    goals[c][s * body.parts.size() + k] =
+                        body.goal_at(k, report.simulated_seconds + static_cast<double>(s + 1) * step);
+        }
+    }
+
     FrameInput input(double step) const
     {
-        return {step, static_cast<std::uint32_t>(scene.colliders.size()), placed, colliders_rest, attached};
+        return {step,  static_cast<std::uint32_t>(scene.colliders.size()), placed, colliders_rest, attached,
+                goals};
     }
 
     void take_measures()
@@ -282,13 +315,36 @@ public:
             m.kinetic_energy += totals.kinetic_energy;
             m.elastic_energy += totals.elastic_energy;
             m.potential_energy += g * totals.height_moment;
+            if (models[c].is_body()) m.potential_energy -= models[c].mass() * dot(models[c].origin, scene.gravity);
             m.non_finite += static_cast<std::uint64_t>(totals.non_finite);
         }
         m.max_speed = std::sqrt(speed2);
         m.mean_stretch = measured_springs > 0 ? stretch_sum / static_cast<double>(measured_springs) : 0;
         if (measured_springs == 0) m.max_stretch = 0;
         report.measures = m;
+        measure_volumes();
         if (m.non_finite > 0 && report.finite) find_bad_node();
+    }
+
+    void measure_volumes()
+    {
+        double loss = 0;
+        for (BodyMeasures& measures : report.bodies) {
+            const ClothPlace& place = places[measures.cloth];
+            const BodyPart& part = models[place.model].body->parts[place.part];
+            measures.volume = runner->volumes(place.model)[place.part] / 6;
+            measures.ratio = measures.volume / part.volume;
+            measures.error = measures.ratio / value_at(part.options.target, report.simulated_seconds, 1) - 1;
+            VolumeReport& all = report.volume;
+            all.error_max = std::max(all.error_max, std::abs(measures.error));
+            all.loss_max = std::max(all.loss_max, -measures.error);
+            all.gain_max = std::max(all.gain_max, measures.error);
+            if (std::abs(measures.error) > part.options.tolerance && report.frames > 0) ++all.misses;
+            loss += std::max(0.0, -measures.error);
+        }
+        if (report.bodies.empty() || report.frames == 0) return;
+        loss_sum += loss / static_cast<double>(report.bodies.size());
+        report.volume.loss_mean = loss_sum / static_cast<double>(report.frames);
     }
 
     void find_bad_node()
@@ -296,7 +352,7 @@ public:
         report.finite = false;
         report.bad_frame = report.frames;
         const auto finite = [](Vec3 a) { return std::isfinite(a.x * a.x + a.y * a.y + a.z * a.z); };
-        for (std::size_t c = 0; c < models.size(); ++c) {
+        for (std::size_t c = 0; c < places.size(); ++c) {
             const auto x = values(c, Resource::position), v = values(c, Resource::velocity);
             for (std::size_t i = 0; i < x.size(); ++i)
                 if (!finite(x[i]) || !finite(v[i])) {
@@ -315,10 +371,24 @@ public:
                                                                           : read_back.normals;
         if (target.frame == state_number) return target.values;
         if (resource == Resource::normal) update_drawing(cloth);
-        runner->read(static_cast<std::uint32_t>(cloth), resource, parity, scratch);
-        target.values.resize(scratch.size() / 3);
-        for (std::size_t i = 0; i < target.values.size(); ++i)
-            target.values[i] = {scratch[3 * i], scratch[3 * i + 1], scratch[3 * i + 2]};
+        const ClothPlace& place = places[cloth];
+        const std::vector<float>& all = read_model(place.model, resource);
+        const Vec3d origin = resource == Resource::position ? models[place.model].origin : Vec3d{};
+        target.values.resize(place.node_count);
+        for (std::size_t i = 0; i < target.values.size(); ++i) {
+            const std::size_t at = 3 * place.node(i);
+            const Vec3 a{all[at], all[at + 1], all[at + 2]};
+            target.values[i] = origin == Vec3d{} ? a : to_float(to_double(a) + origin);
+        }
+        target.frame = state_number;
+        return target.values;
+    }
+
+    /// Numbers of all nodes of a model, read once for each state.
+    const std::vector<float>& read_model(std::uint32_t model, Resource resource)
+    {
+        ReadBack::Values<float>& target = read_models[model][resource];
+        if (target.frame != state_number) runner->read(model, resource, parity, target.values);
         target.frame = state_number;
         return target.values;
     }
@@ -328,7 +398,9 @@ public:
         ReadBack::Values<float>& target = read_backs.at(cloth).strains;
         if (target.frame == state_number) return target.values;
         update_drawing(cloth);
-        runner->read(static_cast<std::uint32_t>(cloth), Resource::strain, parity, target.values);
+        const std::vector<float>& all = read_model(places[cloth].model, Resource::strain);
+        target.values.resize(places[cloth].node_count);
+        for (std::size_t i = 0; i < target.values.size(); ++i) target.values[i] = all[places[cloth].node(i)];
         target.frame = state_number;
         return target.values;
     }
@@ -337,13 +409,14 @@ public:
     {
         ReadBack::Values<float>& target = read_backs.at(cloth).multipliers;
         if (target.frame == state_number) return target.values;
-        if (scene.method == Method::mass_spring) {
-            target.values.assign(models[cloth].node_count(), 0.0f);
+        const std::uint32_t model = places[cloth].model;
+        if (!uses_solver(scene.method)) {
+            target.values.assign(places[cloth].node_count, 0.0f);
         } else {
             Program program{next_program_id++, {}, parity};
-            append_multipliers(models[cloth], static_cast<std::uint32_t>(cloth), parity, program.calls);
+            append_multipliers(models[model], model, parity, program.calls);
             runner->run(program, input(1 / scene.time.frame_rate));
-            runner->read(static_cast<std::uint32_t>(cloth), Resource::multiplier, parity, target.values);
+            runner->read(model, Resource::multiplier, parity, target.values);
         }
         target.frame = state_number;
         return target.values;
@@ -352,14 +425,16 @@ public:
     /// Normals and strains are computed only when someone looks.
     void update_drawing(std::size_t cloth)
     {
-        if (read_backs[cloth].drawn == state_number) return;
-        read_backs[cloth].drawn = state_number;
+        const std::uint32_t model = places[cloth].model;
+        if (drawn.size() < models.size()) drawn.resize(models.size(), 0);
+        if (drawn[model] == state_number) return;
+        drawn[model] = state_number;
         if (device_state) {
-            device_state->drawable(cloth);
+            device_state->drawable(model);
             return;
         }
         Program program{next_program_id++, {}, parity};
-        append_drawing(models[cloth], static_cast<std::uint32_t>(cloth), parity, program.calls);
+        append_drawing(models[model], model, parity, program.calls);
         runner->run(program, input(0));
     }
 
@@ -387,12 +462,22 @@ public:
         };
         Values<Vec3> positions, velocities, normals;
         Values<float> strains, multipliers;
-        std::uint64_t drawn = 0;  ///< normals and strains on the device
+    };
+
+    /// Where a cloth or body of the scene lies in the models.
+    struct ClothPlace {
+        std::uint32_t model = 0, first_node = 0, node_count = 0, part = 0;
+        std::vector<std::uint32_t> node_of_vertex;  ///< against first_node; empty where they are the same
+        std::size_t node(std::size_t vertex) const
+        {
+            return first_node + (node_of_vertex.empty() ? vertex : node_of_vertex[vertex]);
+        }
     };
 
     Scene scene;
     Backend backend;
     std::vector<ClothModel> models;
+    std::vector<ClothPlace> places;  ///< by cloth of the scene
     std::unique_ptr<PassRunner> runner;
     VulkanRunner* device_state = nullptr;
     double stable_step = 0;
@@ -404,7 +489,10 @@ public:
     std::uint32_t parity = 0;
     std::uint64_t state_number = 1;  ///< counts states; 0 is none
     std::vector<ReadBack> read_backs;
-    std::vector<float> scratch;
+    std::vector<std::map<Resource, ReadBack::Values<float>>> read_models;
+    std::vector<std::uint64_t> drawn;  ///< by model: the state of its normals and strains
+    std::vector<std::vector<VolumeGoal>> goals;  ///< by model, see FrameInput
+    double loss_sum = 0;
     Report report;
     double newton_sum = 0, iterations_sum = 0, active_sum = 0;  ///< of the solver, over the run
     double idle_seconds = 0;                                    ///< asked for after the run had ended
@@ -459,7 +547,9 @@ std::span<const Vec3> Simulation::normals(std::size_t cloth)
 std::span<const float> Simulation::strains(std::size_t cloth) { return implementation_->strains(cloth); }
 std::span<const Triangle> Simulation::triangles(std::size_t cloth) const
 {
-    return implementation_->models.at(cloth).triangles();
+    const Cloth& given = scene().cloth(cloth);
+    if (given.is_body()) return std::get<SurfaceMesh>(given.shape).triangles;
+    return implementation_->models[implementation_->places.at(cloth).model].triangles();
 }
 
 std::span<const float> Simulation::multipliers(std::size_t cloth)
@@ -470,8 +560,8 @@ std::span<const float> Simulation::multipliers(std::size_t cloth)
 std::uint64_t Simulation::state_hash()
 {
     StateHash hash;
-    for (std::size_t c = 0; c < implementation_->models.size(); ++c) hash.add(positions(c));
-    for (std::size_t c = 0; c < implementation_->models.size(); ++c) hash.add(velocities(c));
+    for (std::size_t c = 0; c < implementation_->places.size(); ++c) hash.add(positions(c));
+    for (std::size_t c = 0; c < implementation_->places.size(); ++c) hash.add(velocities(c));
     return hash.value();
 }
 
@@ -485,6 +575,7 @@ std::uint64_t Simulation::node_count() const
     for (const ClothModel& model : implementation_->models) sum += model.node_count();
     return sum;
 }
+std::size_t Simulation::body_count() const { return implementation_->report.bodies.size(); }
 std::uint64_t Simulation::spring_count() const { return implementation_->total(&ClothModel::spring_count); }
 std::uint64_t Simulation::triangle_count() const
 {
@@ -504,8 +595,8 @@ double Simulation::stable_step() const { return implementation_->stable_step; }
 std::string Simulation::resolution_warning() const
 {
     constexpr double half_ulp = 0x1p-24, noticeable = 1e-3;  // of a rest length
-    for (std::size_t c = 0; c < implementation_->models.size(); ++c) {
-        const ClothModel& model = implementation_->models[c];
+    for (std::size_t c = 0; c < implementation_->places.size(); ++c) {
+        const ClothModel& model = implementation_->models[implementation_->places[c].model];
         double farthest = 0;
         for (const Vec3& x : model.positions)
             farthest =
@@ -529,14 +620,15 @@ std::string Simulation::resolution_warning() const
 std::string Simulation::stability_warning() const
 {
     const double step = step_length(), stable = stable_step();
-    const bool implicit = scene().method != Method::mass_spring && scene().solver == Solver::newton_multigrid;
+    const bool implicit = uses_solver(scene().method) && scene().solver == Solver::newton_multigrid;
     if (step <= stable || implicit || scene().method == Method::constraint) return {};
     const double frame = 1 / scene().time.frame_rate;
-    return "the step of " + seconds(step) + " exceeds the largest safe one of " + seconds(stable) +
-           ": below the threshold, springs are taken softer, as stiff as this step can carry; for their full "
-           "stiffness use at least " +
-           std::to_string(static_cast<long long>(std::ceil(frame / stable))) +
-           " substeps per frame (time.substeps)";
+    if (scene().method == Method::acad)
+        return "the step of " + seconds(step) + " exceeds the largest safe one of " + seconds(stable) +
+               ": below the threshold, springs are taken softer, as stiff as this step can carry; for their full "
+               "stiffness use at least " +
+               std::to_string(static_cast<long long>(std::ceil(frame / stable))) +
+               " substeps per frame (time.substeps)";
     return "the step of " + seconds(step) + " exceeds the largest safe one of " + seconds(stable) +
            " and the run may diverge: use at least " +
            std::to_string(static_cast<long long>(std::ceil(frame / stable))) +
@@ -546,11 +638,11 @@ std::string Simulation::stability_warning() const
 std::optional<DeviceBuffers> Simulation::device_buffers(std::size_t cloth)
 {
     if (!implementation_->device_state) return std::nullopt;
-    static_cast<void>(implementation_->models.at(cloth));  // refuses a cloth that does not exist
+    if (scene().cloth(cloth).is_body()) return std::nullopt;  // its nodes lie in an order of their own
     const vulkan::Device& device = *implementation_->device_state->device();
     const DeviceClothBuffers buffers = [&] {
         try {
-            return implementation_->device_state->drawable(cloth);
+            return implementation_->device_state->drawable(implementation_->places[cloth].model);
         } catch (const std::runtime_error& error) {
             throw Error(ErrorKind::device_failure,
                         "the device " + device_name() + " failed: " + error.what());

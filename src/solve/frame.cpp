@@ -3,6 +3,7 @@
 #include "solve/mass_spring.hpp"
 #include "solve/newton_multigrid.hpp"
 #include "solve/paper.hpp"
+#include "solve/volume.hpp"
 
 namespace pliant {
 namespace {
@@ -10,7 +11,9 @@ namespace {
 void append_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step, std::uint32_t parity,
                  std::vector<Call>& calls)
 {
-    if (cloth.method == Method::mass_spring)
+    if (cloth.is_body())
+        append_body_step(cloth, index, step, parity, calls);
+    else if (!uses_solver(cloth.method))
         append_mass_spring_step(cloth, index, step, parity, calls);
     else if (cloth.solver == Solver::paper)
         append_paper_step(cloth, index, step, parity, calls);

@@ -1,5 +1,7 @@
 #include "solve/mass_spring.hpp"
 
+#include "solve/volume.hpp"
+
 namespace pliant {
 
 void append_mass_spring_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step,
@@ -33,6 +35,7 @@ void append_measures(std::span<const ClothModel> cloths, std::uint32_t parity, s
         const std::size_t levels = MeasureTree(cloths[c].node_count()).levels.size();
         for (std::uint32_t level = 1; level < levels; ++level)
             calls.push_back({Pass::measure_merge, c, parity, level});
+        if (cloths[c].is_body()) append_volumes(c, parity, calls);
     }
 }
 

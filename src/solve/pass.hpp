@@ -29,10 +29,17 @@ enum class Resource : std::uint32_t {
     normal,          ///< 3 floats per node
     strain,          ///< 1 float per node
     multiplier,      ///< 1 float per node, N: the largest force of a constraint at it
+    gradient,        ///< 3 floats per node of a body, m2: 6 dV/dx
+    direction,       ///< 3 floats per node of a body: how the volume constraint moves it
+    blocked,         ///< 4 floats per node of a body: the normal of what held it, and how many did
+    rate_sums,       ///< 8 floats per block of nodes, see VolumeRate of laws/volume.law.glsl
+    cubic_sums,      ///< 8 floats per block of fans, see VolumeCubic
+    bodies,          ///< 4 floats per body: its centre, m, and 6 V, m3
+    volumes,         ///< 1 float per body, m3: 6 V as it was measured last
     solver,          ///< the arena of numbers of the constraint solver, and its scalars
 };
 
-enum class PassSize { node, spring, block, level, cell, single, row, scan, edge, finer };
+enum class PassSize { node, spring, block, level, cell, single, row, scan, edge, finer, fan, body };
 
 struct PassDescription {
     const char* name;
@@ -118,6 +125,8 @@ struct Program {
     std::uint32_t parity_after = 0;  ///< the current copy of the state when it is done
 };
 
+/// Passes of soft bodies alone.
+constexpr bool is_body_pass(Pass pass) { return pass >= Pass::load_force && pass <= Pass::volume_total; }
 /// Passes of the constraint solver: they work on its arena and share its kernels.
 constexpr bool is_solver_pass(Pass pass) { return pass >= Pass::solve_reset; }
 /// Those of the solver paper, which are over nodes and springs and not over packs of them.

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <utility>
 
+#include "backend/cpu/cpu_body.hpp"
 #include "backend/cpu/jobs.hpp"
 #include "backend/cpu/kernels.hpp"
 #include "backend/cpu/team.hpp"
@@ -49,18 +50,19 @@ cpu::Vectors pointers(Planes<float>& a) { return {a.x.data(), a.y.data(), a.z.da
 
 struct CpuCloth {
     explicit CpuCloth(const ClothModel& model)
-        : plain(model), springs(model, plain.layout), solver(model, model.hierarchy)
+        : plain(model), springs(model, plain.layout), solver(model, model.hierarchy), body(plain)
     {
         plain.spring_force = Planes<float>(springs.first.size());
     }
     PlainCloth<float> plain;
     SpringArrays springs;
     SolverState<float> solver;
+    cpu::CpuBody body;
 };
 
 /// One call with all it needs; `part` runs a piece of it.
 struct Work {
-    enum class Unit { rows, springs, values, solver, single } unit = Unit::values;
+    enum class Unit { rows, springs, values, solver, single, body } unit = Unit::values;
     std::size_t size = 0;      ///< in units
     std::size_t multiple = 1;  ///< parts begin at multiples of this
     std::size_t weight = 1;    ///< nodes or springs in a unit, for the decision how many threads are worth it
@@ -83,6 +85,11 @@ struct Work {
             size = cloth->solver.size_of(c);
             weight = cloth->solver.weight_of(c);
             solver = &cloth->solver.context(c, plain, solver_values, shapes);
+        } else if (cpu::CpuBody::has_kernel(call->pass)) {
+            unit = Unit::body;
+            size = cloth->body.size_of(c);
+            weight = block_size;
+            cloth->body.prepare(c, plain, values);
         } else if (call->pass == Pass::sheet_step || call->pass == Pass::sheet_wind) {
             unit = Unit::rows;
             size = plain.layout.rows;
@@ -93,7 +100,8 @@ struct Work {
             multiple = spring_pack;
         } else {
             size = plain.size_of(*call);
-            if (description_of(call->pass).size == PassSize::block) weight = block_size;
+            const PassSize pass_size = description_of(call->pass).size;
+            if (pass_size == PassSize::block || pass_size == PassSize::fan) weight = block_size;
         }
     }
 
@@ -116,6 +124,8 @@ struct Work {
             springs(begin, end);
         else if (unit == Unit::solver)
             kernels->solve(*solver, *call, static_cast<int>(begin), static_cast<int>(end));
+        else if (unit == Unit::body)
+            cloth->body.run(*call, cloth->plain, *kernels, *constants, colliders, begin, end);
         else if (unit == Unit::single)
             cloth->solver.run(*call, *solver, begin, end);
         else
@@ -180,6 +190,7 @@ public:
             const ClothModel& model = cloths_[c].plain.model;
             constants_[c] = StepConstants<float>(model, input.step_length);
             if (!input.attached.empty()) constants_[c].attached = input.attached[c];
+            if (!input.goals.empty()) constants_[c].goals = input.goals[c];
             solver_constants_[c] = make_solver_constants<float>(model, input.step_length);
         }
         // A host's threads are lent for a task at a time; Pliant's own stay together for the frame.
@@ -193,6 +204,11 @@ public:
               std::vector<float>& values) override
     {
         cloths_[cloth].plain.read(resource, parity, values);
+    }
+    std::vector<double> volumes(std::uint32_t cloth) override
+    {
+        const auto& values = cloths_[cloth].plain.body.volumes;
+        return {values.begin(), values.end()};
     }
     std::vector<double> solver_scalars(std::uint32_t cloth) override
     {
@@ -212,6 +228,7 @@ private:
     void run_calls(const Program& program, const FrameInput& input)
     {
         std::uint32_t known_index = ~0u;
+        Vec3d known_origin;
         auto time = std::chrono::steady_clock::now();
         for (std::size_t k = 0; k < program.calls.size(); ++k) {
             const Call& call = program.calls[k];
@@ -220,11 +237,13 @@ private:
                 k += call.guarded_after;
                 continue;
             }
-            if (call.index != known_index) {
+            const Vec3d origin = cloth.plain.model.origin;
+            if (call.index != known_index || origin != known_origin) {
                 colliders_.clear();
                 for (const PlacedCollider& placed : input.colliders_at(call.index))
-                    colliders_.push_back(make_collider<float>(placed));
+                    colliders_.push_back(make_collider<float>(seen_from(placed, origin)));
                 known_index = call.index;
+                known_origin = origin;
             }
             Work work(call, cloth, kernels_, constants_[call.cloth], solver_constants_[call.cloth],
                       colliders_);

@@ -40,11 +40,53 @@ struct SpringArguments {
     const float *rest_length, *stiffness, *damping;
 };
 
+/// Rows of 16 lanes: the k-th entry of each of 16 neighbouring nodes or fans. Slice s has the rows from start[s] to
+/// start[s + 1]; entries are offsets into the planes.
+struct Slices {
+    static constexpr std::size_t lanes = 16;
+    const std::uint32_t* start;
+    const std::uint32_t* offset;
+    const float* rest_length;  ///< m; negative where there is no spring. Null for fans.
+};
+
+/// What a step of a body has found out about it as a whole.
+struct BodyNumbers {
+    Vector3<float> mean, centre;
+    float multiplier, pressure;  ///< q, or s of the correction; a sixth of the pressure
+};
+
+/// Values that a pass leaves to be merged: by number, 16 lanes each.
+constexpr std::size_t body_sum_count = 8;
+struct LaneSums {
+    float lanes[body_sum_count][Slices::lanes];
+};
+
+/// Passes of soft bodies over blocks of nodes or fans; pointers are to NodeLayout planes.
+struct BodyArguments {
+    ConstVectors position, velocity;
+    Vectors next_position, next_velocity;
+    ConstVectors external_force;  ///< x is null without any
+    Vectors gradient, direction, blocked;
+    float* blocked_count;
+    const float *inverse_mass, *weight;
+    std::size_t first_offset;  ///< of node 0
+    const BodyBlock* blocks;   ///< of nodes, or of fans
+    Slices ring, links, fans;  ///< 16 slices for each block
+    const BodyNumbers* numbers;  ///< by body
+    LaneSums* sums;              ///< by block
+    bool has_links, has_pressure, measures;
+    const StepConstants<float>* constants;
+    const Laws<float>::Collider* colliders;
+    std::size_t collider_count;
+};
+using BodyKernel = void (*)(const BodyArguments&, std::size_t first_block, std::size_t end_block);
+
 struct Kernels {
     const char* name;
     void (*sheet_step)(const SheetArguments&, std::size_t first_row, std::size_t end_row);
     void (*sheet_wind)(const SheetArguments&, std::size_t first_row, std::size_t end_row);
     void (*spring_forces)(const SpringArguments&, std::size_t first, std::size_t end);
+    BodyKernel ring_step, volume_gather, volume_step, volume_cubic, volume_correct;
     /// Segments or rows of a pass of the constraint solver.
     void (*solve)(const SolverContext<float>&, const Call&, int first, int end);
 };

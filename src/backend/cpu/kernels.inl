@@ -159,6 +159,8 @@ void spring_forces(const SpringArguments& a, std::size_t first, std::size_t end)
                               Number::load(a.damping + s)));
 }
 
+#include "backend/cpu/body_kernels.inl"
+
 void solve(const SolverContext<float>& context, const Call& call, int first, int end)
 {
     SolverKernels<Number>(context, call).run(call.pass, first, end);
@@ -167,6 +169,8 @@ void solve(const SolverContext<float>& context, const Call& call, int first, int
 }  // namespace
 
 extern const Kernels PLIANT_KERNELS;
-const Kernels PLIANT_KERNELS = {PLIANT_KERNELS_NAME, sheet_step, sheet_wind, spring_forces, solve};
+const Kernels PLIANT_KERNELS = {PLIANT_KERNELS_NAME, sheet_step,    sheet_wind,  spring_forces,
+                                ring_step,           volume_gather, volume_step, volume_cubic,
+                                volume_correct,      solve};
 
 }  // namespace pliant::cpu

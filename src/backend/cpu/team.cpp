@@ -1,5 +1,6 @@
 #include "backend/cpu/team.hpp"
 
+#include <chrono>
 #include <thread>
 
 #if defined(__x86_64__)
@@ -9,21 +10,28 @@
 namespace pliant::cpu {
 namespace {
 
-/// Waits a little, and after a while lets others have the core.
+/// Waits a little, after a while lets others have the core, and at last sleeps where that is allowed.
 class Patience {
 public:
+    explicit Patience(bool may_sleep) : may_sleep_(may_sleep) {}
+
     void wait()
     {
-        constexpr int spins = 2000;  // some 50 us
-        if (++waited_ > spins) return std::this_thread::yield();
+        constexpr int spins = 2000, yields = 200;  // some 50 us each on a machine that is not busy
+        ++waited_;
+        if (waited_ > spins + yields && may_sleep_)
+            return std::this_thread::sleep_for(std::chrono::microseconds(50));
+        if (waited_ > spins) return std::this_thread::yield();
 #if defined(__x86_64__)
         _mm_pause();
 #elif defined(__aarch64__)
         asm volatile("yield");
 #endif
     }
+    void renew() { waited_ = 0; }
 
 private:
+    bool may_sleep_;
     int waited_ = 0;
 };
 
@@ -82,7 +90,7 @@ void Team::run(unsigned count, void (*task)(void*, unsigned), void* context)
             task(context, index);
             ++own;
         }
-    Patience patience;
+    Patience patience(false);
     while (finished_.load(std::memory_order_acquire) + own < count) patience.wait();
 }
 
@@ -90,7 +98,7 @@ void Team::run(unsigned count, void (*task)(void*, unsigned), void* context)
 void Team::help(unsigned number)
 {
     std::uint64_t seen = open_.load(std::memory_order_acquire);
-    Patience patience;
+    Patience patience(true);  // the leader does what a sleeper leaves
     while (!ended_.load(std::memory_order_acquire)) {
         const std::uint64_t open = open_.load(std::memory_order_acquire);
         const auto region = static_cast<std::uint32_t>(open >> 32);
@@ -100,7 +108,7 @@ void Team::help(unsigned number)
             continue;
         }
         seen = open;
-        patience = {};
+        patience.renew();
         task_(context_, number);
         finished_.fetch_add(1, std::memory_order_release);
     }

@@ -13,6 +13,7 @@ StepConstants<T>::StepConstants(const ClothModel& model, double step_length)
     const auto vector = [&](Vec3d a) { return Vector3<T>{number(a.x), number(a.y), number(a.z)}; };
     const ClothParameters& p = model.parameters;
     dt = number(step_length);
+    inverse_dt = step_length > 0 ? T(1) / dt : T(0);
     decay = number(std::max(0.0, 1 - p.damping * step_length));
     thickness = number(p.thickness);
     gravity = vector(p.gravity);
@@ -40,7 +41,8 @@ PlainCloth<T>::PlainCloth(const ClothModel& cloth)
       inverse_mass(layout.size),
       strain(layout.size),
       multiplier(cloth.hierarchy.empty() ? 0 : layout.size),
-      tree(cloth.node_count())
+      tree(cloth.node_count()),
+      body(cloth, layout)
 {
     for (auto* planes : {&position[0], &position[1], &velocity[0], &velocity[1]})
         *planes = Planes<T>(layout.size);
@@ -60,6 +62,7 @@ template <class T>
 std::size_t PlainCloth<T>::size_of(const Call& call) const
 {
     if (call.pass == Pass::attach) return model.attached.size();
+    if (is_body_pass(call.pass)) return body.size_of(call);
     switch (description_of(call.pass).size) {
         case PassSize::block: return tree.levels[call.pass == Pass::measure_merge ? call.index : 0].count;
         case PassSize::spring: return model.springs.size();
@@ -72,6 +75,7 @@ template <class T>
 void PlainCloth<T>::run(const Call& call, const StepConstants<T>& constants,
                         std::span<const Collider> colliders, std::size_t begin, std::size_t end)
 {
+    if (is_body_pass(call.pass)) return body.run(call, *this, constants, colliders, begin, end);
     switch (call.pass) {
         case Pass::sheet_wind: return sheet_wind(call, constants, begin, end);
         case Pass::mesh_wind: return mesh_wind(call, constants, begin, end);
@@ -428,6 +432,7 @@ void PlainCloth<T>::read(Resource resource, std::uint32_t parity, std::vector<fl
             for (std::size_t i = 0; i < nodes && !multiplier.empty(); ++i) push(multiplier[layout.offset(i)]);
             return;
         case Resource::solver: return;  // nothing per node
+        default: return body.read(resource, layout, values);
     }
 }
 

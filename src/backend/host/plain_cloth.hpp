@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "backend/host/plain_body.hpp"
 #include "backend/host/planes.hpp"
 #include "backend/pass_runner.hpp"
 #include "body/cloth_model.hpp"
@@ -44,6 +45,9 @@ struct StepConstants {
     T stiffness[spring_class_count]{}, damping[spring_class_count]{};
     T rest_lengths[5]{};  ///< of a sheet
 
+    T inverse_dt{};            ///< 1/s
+    std::span<const VolumeGoal> goals = {};  ///< of a body's parts, a row for each step of the frame or one for all
+
     std::span<const Vec3> attached = {};  ///< m, places of attached nodes, a row for each step of the frame
 
     StepConstants(const ClothModel& model, double step_length);
@@ -76,6 +80,7 @@ public:
     AlignedArray<T> inverse_mass, strain, multiplier;  ///< multiplier: of the constraint methods
     std::vector<Measure> measures;
     MeasureTree tree;
+    PlainBody<T> body;  ///< empty but for a soft body
 
 private:
     struct Place {
@@ -103,6 +108,7 @@ private:
                         std::size_t);
     void merge_blocks(const Call&, std::size_t, std::size_t);
 
+    friend class PlainBody<T>;
     Measure measured_springs(const Call&, const StepConstants<T>&, const Place&) const;
     void finish_step(const Call&, const StepConstants<T>&, std::span<const Collider>, const Place&,
                      Vector force);

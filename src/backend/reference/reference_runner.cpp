@@ -22,19 +22,22 @@ public:
         for (const auto& cloth : cloths_) {
             constants.emplace_back(cloth.model, input.step_length);
             if (!input.attached.empty()) constants.back().attached = input.attached[constants.size() - 1];
+            if (!input.goals.empty()) constants.back().goals = input.goals[constants.size() - 1];
             solver_constants.push_back(make_solver_constants<double>(cloth.model, input.step_length));
         }
         std::vector<Laws<double>::Collider> colliders;
         std::uint32_t known_index = ~0u;
+        Vec3d known_origin;
         for (const Call& call : program.calls) {
-            if (call.index != known_index) {
+            auto& cloth = cloths_[call.cloth];
+            if (call.index != known_index || cloth.model.origin != known_origin) {
                 colliders.clear();
                 for (const PlacedCollider& placed : input.colliders_at(call.index))
-                    colliders.push_back(make_collider<double>(placed));
+                    colliders.push_back(make_collider<double>(seen_from(placed, cloth.model.origin)));
                 known_index = call.index;
+                known_origin = cloth.model.origin;
             }
             const auto start = std::chrono::steady_clock::now();
-            auto& cloth = cloths_[call.cloth];
             if (is_solver_pass(call.pass)) {
                 SolverState<double>& solver = solvers_[call.cloth];
                 if (solver.skips(call)) continue;
@@ -52,6 +55,7 @@ public:
     {
         cloths_[cloth].read(resource, parity, values);
     }
+    std::vector<double> volumes(std::uint32_t cloth) override { return cloths_[cloth].body.volumes; }
     std::vector<double> solver_scalars(std::uint32_t cloth) override
     {
         const auto values = solvers_[cloth].scalars();

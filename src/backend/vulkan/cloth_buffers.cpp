@@ -1,5 +1,6 @@
 #include "backend/vulkan/cloth_buffers.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -26,6 +27,7 @@ struct Parameters {
     std::uint32_t collider_count = 0, colliders_rest = 0, has_air = 0, attached_first = 0;
     Float4 gravity_dt, gravity_direction, wind_density, drag_lift_thickness, stiffness, spring_damping;
     Float4 rest_lengths, rest_lengths_more;
+    std::uint32_t colliders_first = 0, goals_first = 0, goals_stride = 0, unused = 0;
 };
 
 }  // namespace
@@ -47,7 +49,7 @@ Buffer ClothBuffers::filled(const Device& device, const void* data, std::size_t 
 
 ClothBuffers::ClothBuffers(const Device& device, const ClothModel& model,
                            const vk::raii::DescriptorSetLayout& layout)
-    : model_(&model), tree_(model.node_count()), solver_(device, model)
+    : model_(&model), tree_(model.node_count()), solver_(device, model), body_(device, model)
 {
     const std::size_t nodes = model.node_count();
     std::vector<Float4> values(nodes);
@@ -66,9 +68,10 @@ ClothBuffers::ClothBuffers(const Device& device, const ClothModel& model,
     measures_ = device.make_buffer(tree_.value_count * 2 * sizeof(Float4), Usage::eStorageBuffer,
                                    Memory::device, "measures");
     root_ = device.make_buffer(2 * sizeof(Float4), Usage::eTransferDst, Memory::readback, "measured total");
-    if (model.feels_air())
-        external_force_ = device.make_buffer(nodes * sizeof(Float4), Usage::eStorageBuffer, Memory::device,
-                                             "external force");
+    if (model.has_external_force()) {
+        std::fill(values.begin(), values.end(), Float4{});  // where no region's force acts
+        external_force_ = node_buffer("external force");
+    }
 
     if (!model.node_centric()) {
         std::vector<std::array<std::uint32_t, 2>> ends, around;
@@ -115,7 +118,7 @@ ClothBuffers::ClothBuffers(const Device& device, const ClothModel& model,
             {Binding::position_out, &position_[1 - parity]},
             {Binding::velocity_out, &velocity_[1 - parity]},
             // Bound in any case, since the step reads it when there is air.
-            {Binding::external_force, model.feels_air() ? &external_force_ : &normal_},
+            {Binding::external_force, model.has_external_force() ? &external_force_ : &normal_},
             {Binding::springs, &springs_},
             {Binding::spring_rest_class, &spring_rest_class_},
             {Binding::neighbour_start, &neighbour_start_},
@@ -133,6 +136,11 @@ ClothBuffers::ClothBuffers(const Device& device, const ClothModel& model,
             {Binding::solver_parts, &solver_.parts()},
             {Binding::solver_topology, &solver_.topology()},
             {Binding::multiplier, &solver_.multiplier()},
+            {Binding::body_topology, &body_.topology()},
+            {Binding::gradient, &body_.gradient()},
+            {Binding::direction, &body_.direction()},
+            {Binding::blocked, &body_.blocked()},
+            {Binding::body_sums, &body_.sums()},
         };
         for (const auto& [binding, buffer] : bound) {
             if (buffer->size == 0) continue;  // this kind of cloth has none
@@ -156,7 +164,7 @@ void ClothBuffers::bind_colliders(const Device& device, const Buffer& colliders)
 }
 
 void ClothBuffers::set_parameters(double step_length, std::uint32_t collider_count, bool colliders_rest,
-                                  std::uint32_t attached_first)
+                                  const FrameRows& rows)
 {
     const StepConstants<float> c(*model_, step_length);
     Parameters p;
@@ -168,7 +176,7 @@ void ClothBuffers::set_parameters(double step_length, std::uint32_t collider_cou
     p.spring_count = static_cast<std::uint32_t>(model_->springs.size());
     p.collider_count = collider_count;
     p.colliders_rest = colliders_rest ? 1 : 0;
-    p.has_air = model_->feels_air() ? 1 : 0;
+    p.has_air = model_->has_external_force() ? 1 : 0;
     p.gravity_dt = float4(c.gravity, c.dt);
     p.gravity_direction = float4(c.gravity_direction, c.decay);
     p.wind_density = float4(c.wind, c.air_density);
@@ -176,7 +184,10 @@ void ClothBuffers::set_parameters(double step_length, std::uint32_t collider_cou
     p.stiffness = {c.stiffness[0], c.stiffness[1], c.stiffness[2], 0};
     p.spring_damping = {c.damping[0], c.damping[1], c.damping[2], 0};
     p.rest_lengths = {c.rest_lengths[0], c.rest_lengths[1], c.rest_lengths[2], c.rest_lengths[3]};
-    p.attached_first = attached_first;
+    p.attached_first = rows.attached;
+    p.colliders_first = rows.colliders;
+    p.goals_first = rows.goals;
+    p.goals_stride = rows.goals_stride;
     p.rest_lengths_more.x = c.rest_lengths[4];
     p.rest_lengths_more.y = step_length > 0 ? 1 / c.dt : 0;
     std::memcpy(parameters_.mapped, &p, sizeof p);
@@ -196,6 +207,13 @@ const Buffer& ClothBuffers::buffer(Resource resource, std::uint32_t parity) cons
         case Resource::strain: return strain_;
         case Resource::measures: return measures_;
         case Resource::multiplier: return solver_.multiplier();
+        case Resource::gradient: return body_.gradient();
+        case Resource::direction: return body_.direction();
+        case Resource::blocked: return body_.blocked();
+        case Resource::rate_sums:
+        case Resource::cubic_sums:
+        case Resource::bodies:
+        case Resource::volumes: return body_.sums();
         case Resource::colliders:
         case Resource::solver: break;
     }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "backend/host/plain_cloth.hpp"
+#include "backend/vulkan/body_buffers.hpp"
 #include "backend/vulkan/device.hpp"
 #include "backend/vulkan/solver_buffers.hpp"
 #include "body/cloth_model.hpp"
@@ -40,8 +41,13 @@ enum class Binding : std::uint32_t {
     solver_parts = 21,
     solver_topology = 22,
     multiplier = 23,
+    body_topology = 24,
+    gradient = 25,
+    direction = 26,
+    blocked = 27,
+    body_sums = 28,
 };
-constexpr std::uint32_t binding_count = 24;
+constexpr std::uint32_t binding_count = 29;
 
 vk::raii::DescriptorSetLayout make_cloth_layout(const Device& device);
 
@@ -53,8 +59,14 @@ public:
     const MeasureTree& tree() const { return tree_; }
     vk::DescriptorSet set(std::uint32_t parity) const { return *sets_[parity]; }
     void bind_colliders(const Device& device, const Buffer& colliders);
+    /// Where the host's rows of a frame begin.
+    struct FrameRows {
+        std::uint32_t colliders = 0;               ///< in colliders, of this cloth's origin
+        std::uint32_t attached = 0;                ///< in rows of four numbers
+        std::uint32_t goals = 0, goals_stride = 0; ///< in rows of four numbers; from step to step
+    };
     void set_parameters(double step_length, std::uint32_t collider_count, bool colliders_rest,
-                        std::uint32_t attached_first);
+                        const FrameRows& rows);
 
     /// The buffer behind a resource; for next_* that of the other parity.
     const Buffer& buffer(Resource resource, std::uint32_t parity) const;
@@ -64,6 +76,7 @@ public:
     void record_root_copy(const vk::raii::CommandBuffer& commands) const;
     MeasureTotals totals() const;
     const SolverBuffers& solver() const { return solver_; }
+    const BodyBuffers& body() const { return body_; }
 
 private:
     Buffer filled(const Device& device, const void* data, std::size_t bytes, const char* name) const;
@@ -75,6 +88,7 @@ private:
     Buffer springs_, spring_rest_class_, neighbour_start_, neighbours_;
     Buffer triangles_, triangle_start_, node_triangles_;
     SolverBuffers solver_;
+    BodyBuffers body_;
     vk::raii::DescriptorPool pool_{nullptr};
     std::vector<vk::raii::DescriptorSet> sets_;
 };

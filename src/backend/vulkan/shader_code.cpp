@@ -46,6 +46,30 @@ constexpr std::uint32_t sheet_strain[] = {
 constexpr std::uint32_t list_strain[] = {
 #include "shaders/list_strain.comp.inc"
 };
+constexpr std::uint32_t load_force[] = {
+#include "shaders/load_force.comp.inc"
+};
+constexpr std::uint32_t ring_step[] = {
+#include "shaders/ring_step.comp.inc"
+};
+constexpr std::uint32_t volume_gather[] = {
+#include "shaders/volume_gather.comp.inc"
+};
+constexpr std::uint32_t volume_step[] = {
+#include "shaders/volume_step.comp.inc"
+};
+constexpr std::uint32_t volume_cubic[] = {
+#include "shaders/volume_cubic.comp.inc"
+};
+constexpr std::uint32_t volume_correct[] = {
+#include "shaders/volume_correct.comp.inc"
+};
+constexpr std::uint32_t volume_measure[] = {
+#include "shaders/volume_measure.comp.inc"
+};
+constexpr std::uint32_t volume_total[] = {
+#include "shaders/volume_total.comp.inc"
+};
 constexpr std::uint32_t solve_reset[] = {
 #include "shaders/solve_reset.comp.inc"
 };

@@ -106,6 +106,11 @@ public:
         const vk::DescriptorSetLayout layout = *layout_;
         pipeline_layout_ = {device_->handle(), vk::PipelineLayoutCreateInfo({}, layout, push)};
         make_pipelines(models);
+        for (const ClothModel& model : models) {
+            const auto known = std::find(origins_.begin(), origins_.end(), model.origin);
+            origin_of_.push_back(static_cast<std::size_t>(known - origins_.begin()));
+            if (known == origins_.end()) origins_.push_back(model.origin);
+        }
         cloths_.reserve(models.size());
         for (const ClothModel& model : models) cloths_.emplace_back(*device_, model, layout_);
         check_sizes(models);
@@ -114,19 +119,28 @@ public:
 
     void run(const Program& program, const FrameInput& input) override
     {
-        // Places of attached nodes lie after the colliders, each a row of four numbers.
+        // Colliders lie first, as each of the origins of cloths sees them; then places of attached nodes and goals of
+        // bodies, each a row of four numbers.
         constexpr std::size_t rows_of_collider = sizeof(ColliderRow) / sizeof(Float4);
-        std::size_t rows = rows_of_collider * input.colliders.size();
+        const std::size_t placed = input.colliders.size();
+        std::size_t rows = rows_of_collider * placed * origins_.size();
         for (const std::vector<Vec3>& places : input.attached) rows += places.size();
+        for (const std::vector<VolumeGoal>& goals : input.goals) rows += goals.size();
+        for (const ClothBuffers& cloth : cloths_) rows += part_count(cloth);
         reserve_colliders((rows + rows_of_collider - 1) / rows_of_collider);
-        for (std::size_t k = 0; k < input.colliders.size(); ++k) {
-            const ColliderRow row = pack_collider(input.colliders[k]);
-            std::memcpy(static_cast<ColliderRow*>(colliders_.mapped) + k, &row, sizeof row);
-        }
-        std::size_t first = rows_of_collider * input.colliders.size();
+        for (std::size_t o = 0; o < origins_.size(); ++o)
+            for (std::size_t k = 0; k < placed; ++k) {
+                const ColliderRow row = pack_collider(seen_from(input.colliders[k], origins_[o]));
+                std::memcpy(static_cast<ColliderRow*>(colliders_.mapped) + o * placed + k, &row, sizeof row);
+            }
+        std::size_t first = rows_of_collider * placed * origins_.size();
         for (std::size_t c = 0; c < cloths_.size(); ++c) {
-            cloths_[c].set_parameters(input.step_length, input.collider_count, input.colliders_rest,
-                                      static_cast<std::uint32_t>(first));
+            ClothBuffers::FrameRows at;
+            at.colliders = static_cast<std::uint32_t>(origin_of_[c] * placed);
+            at.goals = static_cast<std::uint32_t>(first);
+            first += write_goals(c, input, first, at.goals_stride);
+            at.attached = static_cast<std::uint32_t>(first);
+            cloths_[c].set_parameters(input.step_length, input.collider_count, input.colliders_rest, at);
             if (input.attached.empty()) continue;
             const auto& nodes = cloths_[c].model().attached;
             for (std::size_t k = 0; k < input.attached[c].size(); ++k, ++first) {
@@ -154,12 +168,25 @@ public:
             device_->read(buffers.buffer(resource, parity), values.data(), values.size() * sizeof(float));
             return;
         }
+        if (const BodyBuffers::Rows rows = buffers.body().rows_of(resource); rows.count > 0) {
+            std::vector<Float4> all(rows.first + rows.count);
+            device_->read(buffers.buffer(resource, parity), all.data(), all.size() * sizeof(Float4));
+            values.clear();
+            for (std::size_t k = rows.first; k < all.size(); ++k) {
+                values.push_back(all[k].x);
+                if (resource != Resource::volumes) values.insert(values.end(), {all[k].y, all[k].z, all[k].w});
+            }
+            return;
+        }
         std::vector<Float4> padded(count);
         device_->read(buffers.buffer(resource, parity), padded.data(), count * sizeof(Float4));
-        values.resize(3 * count);
-        for (std::size_t i = 0; i < count; ++i) std::memcpy(&values[3 * i], &padded[i], 3 * sizeof(float));
+        const std::size_t numbers = resource == Resource::blocked ? 4 : 3;
+        values.resize(numbers * count);
+        for (std::size_t i = 0; i < count; ++i)
+            std::memcpy(&values[numbers * i], &padded[i], numbers * sizeof(float));
     }
 
+    std::vector<double> volumes(std::uint32_t cloth) override { return cloths_[cloth].body().volumes(); }
     std::vector<double> solver_scalars(std::uint32_t cloth) override
     {
         return cloths_[cloth].solver().scalar_values();
@@ -191,10 +218,37 @@ private:
     static constexpr std::uint32_t linear_group = 64;
     static constexpr std::uint32_t sheet_group_x = 32, sheet_group_y = 4;
 
-    /// Of the constraint solver's passes only when a cloth needs them: compiling them takes its time.
+    static std::size_t part_count(const ClothBuffers& cloth)
+    {
+        return cloth.model().body ? cloth.model().body->parts.size() : 0;
+    }
+
+    /// Writes what is wanted of a cloth's bodies from row `first` on; returns the number of rows, and from step to step.
+    std::size_t write_goals(std::size_t c, const FrameInput& input, std::size_t first, std::uint32_t& stride) const
+    {
+        const std::size_t parts = part_count(cloths_[c]);
+        std::vector<VolumeGoal> at_start;
+        std::span<const VolumeGoal> goals;
+        if (!input.goals.empty()) goals = input.goals[c];
+        if (parts > 0 && goals.size() < parts) {
+            for (std::size_t k = 0; k < parts; ++k) at_start.push_back(cloths_[c].model().body->goal_at(k, 0));
+            goals = at_start;
+        }
+        stride = goals.size() > parts ? static_cast<std::uint32_t>(parts) : 0;
+        for (std::size_t k = 0; k < goals.size(); ++k) {
+            const Float4 row{static_cast<float>(goals[k].volume), static_cast<float>(goals[k].pressure)};
+            std::memcpy(static_cast<Float4*>(colliders_.mapped) + first + k, &row, sizeof row);
+        }
+        return goals.size();
+    }
+
+    /// Of the constraint solver's passes, and of soft bodies', only when a cloth needs them: compiling them takes its
+    /// time.
     void make_pipelines(std::span<const ClothModel> models)
     {
         const bool solved = std::any_of(models.begin(), models.end(), needs_solver);
+        const bool bodies =
+            std::any_of(models.begin(), models.end(), [](const ClothModel& model) { return model.is_body(); });
         const auto properties =
             device_->physical()
                 .getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceFloatControlsProperties>();
@@ -203,6 +257,10 @@ private:
                                   controls.shaderRoundingModeRTEFloat32 == VK_TRUE};
         for (std::uint32_t p = 0; p < all_passes().size(); ++p) {
             if (is_solver_pass(static_cast<Pass>(p)) && !solved) break;
+            if (is_body_pass(static_cast<Pass>(p)) && !bodies) {
+                pipelines_.emplace_back(nullptr);
+                continue;
+            }
             const auto module = device_->make_shader(
                 with_float_controls(with_exact_arithmetic(compute_shader(static_cast<Pass>(p))), modes));
             const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module,
@@ -217,6 +275,7 @@ private:
         const ClothBuffers& cloth = cloths_[call.cloth];
         const ClothModel& model = cloth.model();
         if (is_solver_pass(call.pass)) return cloth.solver().groups_of(call);
+        if (is_body_pass(call.pass)) return {cloth.body().groups_of(call)};
         const auto groups = [](std::uint64_t n, std::uint64_t size) { return (n + size - 1) / size; };
         switch (call.pass) {
             case Pass::sheet_wind:
@@ -296,7 +355,7 @@ private:
                 vk::AccessFlagBits::eShaderRead | vk::AccessFlagBits::eShaderWrite |
                     vk::AccessFlagBits::eUniformRead);
         BarrierPlan plan;
-        std::set<std::uint32_t> measured, solved;
+        std::set<std::uint32_t> measured, solved, volumes;
         std::uint32_t query = 0;
         if (timed)
             commands.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *recording.queries, query++);
@@ -314,11 +373,13 @@ private:
             if (call.pass == Pass::sheet_measure || call.pass == Pass::list_measure)
                 measured.insert(call.cloth);
             if (is_solver_pass(call.pass)) solved.insert(call.cloth);
+            if (call.pass == Pass::volume_total) volumes.insert(call.cloth);
         }
         if (!measured.empty() || !solved.empty()) {
             barrier(commands, vk::PipelineStageFlagBits::eComputeShader, vk::AccessFlagBits::eShaderWrite,
                     vk::PipelineStageFlagBits::eTransfer, vk::AccessFlagBits::eTransferRead);
             for (const std::uint32_t cloth : measured) cloths_[cloth].record_root_copy(commands);
+            for (const std::uint32_t cloth : volumes) cloths_[cloth].body().record_volume_copy(commands);
             for (const std::uint32_t cloth : solved) cloths_[cloth].solver().record_scalar_copy(commands);
             barrier(commands, vk::PipelineStageFlagBits::eTransfer, vk::AccessFlagBits::eTransferWrite,
                     vk::PipelineStageFlagBits::eHost, vk::AccessFlagBits::eHostRead);
@@ -374,6 +435,8 @@ private:
     vk::raii::PipelineLayout pipeline_layout_{nullptr};
     std::vector<vk::raii::Pipeline> pipelines_;  // by Pass
     std::vector<ClothBuffers> cloths_;
+    std::vector<Vec3d> origins_;          ///< different ones, of all cloths
+    std::vector<std::size_t> origin_of_;  ///< by cloth, index into origins_
     Buffer colliders_;
     std::map<std::uint64_t, Recording> recordings_;
     std::vector<std::uint64_t> ticks_;

@@ -18,6 +18,7 @@ layout(set = 0, binding = 0, std140) uniform Parameters
     vec4 spring_damping;       // N s/m by class
     vec4 rest_lengths;         // m: along a row, along a column, diagonal, two along a row
     vec4 rest_lengths_more;    // m: two along a column; y: 1/s, of a step
+    uvec4 rows_first;          // in collider_rows: of colliders, in rows of 8; of a body's goals, and from step to step
 } parameters;
 
 // The step of the frame, or the level of the tree, that a call is for; and for a level, where its values lie. Of the
@@ -34,7 +35,10 @@ layout(set = 0, binding = 2, std430) readonly buffer VelocityIn { vec4 velocity_
 #define POSITION_OUT_ACCESS writeonly
 #endif
 layout(set = 0, binding = 3, std430) POSITION_OUT_ACCESS buffer PositionOut { vec4 position_out[]; };
-layout(set = 0, binding = 4, std430) writeonly buffer VelocityOut { vec4 velocity_out[]; };
+#ifndef VELOCITY_OUT_ACCESS
+#define VELOCITY_OUT_ACCESS writeonly
+#endif
+layout(set = 0, binding = 4, std430) VELOCITY_OUT_ACCESS buffer VelocityOut { vec4 velocity_out[]; };
 
 vec3 position_of(uint node) { return position_in[node].xyz; }
 vec3 velocity_of(uint node) { return velocity_in[node].xyz; }

@@ -8,7 +8,7 @@ layout(set = 0, binding = 6, std430) readonly buffer Colliders { vec4 collider_r
 // Row k of step s: 8 vec4. As pack_collider() in vulkan_runner.cpp.
 Collider collider_at(uint step, uint k)
 {
-    uint first = 8u * ((parameters.colliders_rest != 0u ? 0u : step * parameters.collider_count) + k);
+    uint first = 8u * (parameters.rows_first.x + (parameters.colliders_rest != 0u ? 0u : step * parameters.collider_count) + k);
     Collider c;
     vec4 centre_kind = collider_rows[first];
     c.centre = centre_kind.xyz;

@@ -1,0 +1,290 @@
+// Kernels of soft bodies: included by kernels.inl, inside its unnamed namespace. A pack is W neighbouring nodes, or fans,
+// of a slice of 16.
+
+constexpr std::size_t slice_lanes = 16;  // as Slices::lanes
+constexpr std::size_t slices_in_block = 16;
+
+inline Vector gather(const ConstVectors& from, const std::uint32_t* index)
+{
+    return {Number::gather(from.x, index), Number::gather(from.y, index), Number::gather(from.z, index)};
+}
+inline ConstVectors as_const(const Vectors& a) { return {a.x, a.y, a.z}; }
+inline Vector vector_of(const Vector3<float>& a) { return {Number(a.x), Number(a.y), Number(a.z)}; }
+inline L::Blocked load_blocked(const BodyArguments& a, std::ptrdiff_t offset)
+{
+    return {load(a.blocked, offset), Number::load(a.blocked_count + offset)};
+}
+
+/// Lanes of a pack that belong to the block.
+inline L::mask lanes_below(std::ptrdiff_t first, std::uint32_t count)
+{
+    return lanes_on_sheet(first, static_cast<std::ptrdiff_t>(count));
+}
+
+/// Stores the lanes that belong to the block: behind its last node another body may begin.
+inline void store_some(float* to, const Number& a, std::ptrdiff_t lanes)
+{
+    if (lanes >= width) return a.store(to);
+    float values[width];
+    a.store(values);
+    for (std::ptrdiff_t k = 0; k < lanes; ++k) to[k] = values[k];
+}
+inline void store_some(const Vectors& to, std::ptrdiff_t offset, const Vector& a, std::ptrdiff_t lanes)
+{
+    store_some(to.x + offset, a.x, lanes);
+    store_some(to.y + offset, a.y, lanes);
+    store_some(to.z + offset, a.z, lanes);
+}
+
+/// Visits the packs of a block: f(slice, lane of the slice, place in the block, lanes that count).
+template <class Function>
+inline void for_each_pack(const BodyBlock& block, Function&& f)
+{
+    for (std::size_t place = 0; place < block.count; place += width)
+        f(place / slice_lanes, place % slice_lanes, place, static_cast<std::ptrdiff_t>(block.count - place));
+}
+
+struct PackRing {
+    Vector force, gradient;
+};
+
+/// Springs and gradient of a pack of nodes, in the order of their rings; the rest lengths of entries that only fill up a
+/// row are negative, and they repeat the last neighbour, so that they add nothing.
+template <bool with_gradient>
+inline PackRing ring_of(const BodyArguments& a, std::size_t slice, std::size_t lane, const Vector& x, const Vector& v)
+{
+    const StepConstants<float>& c = *a.constants;
+    const Vector zero{Number(0.0f), Number(0.0f), Number(0.0f)};
+    PackRing sums{zero, zero};
+    const auto add_spring = [&](const Slices& list, std::size_t row, const Vector& there, const Number& k,
+                                const Number& damping) {
+        const Number rest = Number::load(list.rest_length + row);
+        const Vector f =
+            L::spring_force(x, there, v, gather(a.velocity, list.offset + row), rest, k, damping);
+        sums.force = sums.force + L::choose(rest < Number(0.0f), zero, f);
+    };
+    const Number k(c.stiffness[0]), damping(c.damping[0]);
+    Vector first = zero, before = zero;
+    const std::uint32_t begin = a.ring.start[slice], end = a.ring.start[slice + 1];
+    for (std::uint32_t r = begin; r < end; ++r) {
+        const std::size_t row = r * slice_lanes + lane;
+        const Vector there = gather(a.position, a.ring.offset + row);
+        add_spring(a.ring, row, there, k, damping);
+        if (!with_gradient) continue;
+        const Vector side = there - x;
+        if (r == begin)
+            first = side;
+        else
+            sums.gradient = L::ring_add(sums.gradient, before, side);
+        before = side;
+    }
+    if (with_gradient) sums.gradient = L::ring_add(sums.gradient, before, first);
+    if (a.has_links) {
+        const Number inner_k(c.stiffness[1]), inner_damping(c.damping[1]);
+        for (std::uint32_t r = a.links.start[slice]; r < a.links.start[slice + 1]; ++r) {
+            const std::size_t row = r * slice_lanes + lane;
+            add_spring(a.links, row, gather(a.position, a.links.offset + row), inner_k, inner_damping);
+        }
+    }
+    return sums;
+}
+
+template <bool with_gradient>
+inline void step_block(const BodyArguments& a, std::size_t b)
+{
+    const StepConstants<float>& c = *a.constants;
+    const Vector gravity = spread_vector<Number>(c.gravity);
+    const Number dt(c.dt), decay(c.decay), thickness(c.thickness);
+    const BodyBlock& block = a.blocks[b];
+    for_each_pack(block, [&](std::size_t slice, std::size_t lane, std::size_t place, std::ptrdiff_t lanes) {
+        const auto offset = static_cast<std::ptrdiff_t>(a.first_offset + block.first + place);
+        const L::Motion now = {load(a.position, offset), load(a.velocity, offset)};
+        const Number w = Number::load(a.inverse_mass + offset);
+        const PackRing ring =
+            ring_of<with_gradient>(a, b * slices_in_block + slice, lane, now.position, now.velocity);
+        Vector force = ring.force;
+        if (a.external_force.x) force = force + load(a.external_force, offset);
+        if (with_gradient) force = force + ring.gradient * Number(a.numbers[block.body].pressure);
+        L::Motion next;
+        next.velocity = L::velocity_step(now.velocity, force, w, gravity, decay, dt);
+        next.position = L::position_step(now.position, next.velocity, dt);
+        for (std::size_t k = 0; k < a.collider_count; ++k)
+            next = L::contact_step(now, next, spread_collider<L::Collider, Number>(a.colliders[k]), thickness, w, dt);
+        store_some(a.next_position, offset, next.position, lanes);
+        store_some(a.next_velocity, offset, next.velocity, lanes);
+    });
+}
+
+void ring_step(const BodyArguments& a, std::size_t first_block, std::size_t end_block)
+{
+    for (std::size_t b = first_block; b < end_block; ++b)
+        if (a.has_pressure)
+            step_block<true>(a, b);
+        else
+            step_block<false>(a, b);
+}
+
+/// Sums of one block in lanes: lane k of 16 adds the values k, k + 16, ... in their order.
+template <class Value, class Merge>
+class LaneTotals {
+public:
+    LaneTotals(const Value& nothing, Merge merge) : nothing_(nothing), merge_(merge) {}
+    void add(std::size_t slice, std::size_t lane, const Value& value)
+    {
+        Value& total = totals_[lane / width];
+        total = slice == 0 ? value : merge_(total, value);
+    }
+    /// With what is not there: packs that the last slice lacks, and slices that the block lacks.
+    template <class Store>
+    void finish(std::uint32_t count, Store store)
+    {
+        for (std::size_t group = 0; group < group_count; ++group) {
+            const std::size_t slices = (count + slice_lanes - 1 - group * width) / slice_lanes;
+            const bool any = group * width < count;
+            Value total = any ? totals_[group] : nothing_;
+            if (any && slices < slices_in_block) total = merge_(total, nothing_);
+            store(group * width, total);
+        }
+    }
+
+private:
+    static constexpr std::size_t group_count = slice_lanes / width;
+    Value totals_[group_count];
+    Value nothing_;
+    Merge merge_;
+};
+
+inline L::VolumeRate where(const L::mask& m, const L::VolumeRate& a)
+{
+    const Number zero(0.0f);
+    const Vector none{zero, zero, zero};
+    return {L::choose(m, a.rate, zero), L::choose(m, a.mobility, zero), L::choose(m, a.pushed, none),
+            L::choose(m, a.thrust, none)};
+}
+inline L::VolumeCubic where(const L::mask& m, const L::VolumeCubic& a)
+{
+    const Number zero(0.0f);
+    return {L::choose(m, a.volume, zero), L::choose(m, a.low, zero),   L::choose(m, a.first, zero),
+            L::choose(m, a.second, zero), L::choose(m, a.third, zero), L::choose(m, a.arm, {zero, zero, zero})};
+}
+
+void volume_gather(const BodyArguments& a, std::size_t first_block, std::size_t end_block)
+{
+    const StepConstants<float>& c = *a.constants;
+    const Vector gravity = spread_vector<Number>(c.gravity);
+    const Number dt(c.dt), decay(c.decay);
+    for (std::size_t b = first_block; b < end_block; ++b) {
+        const BodyBlock& block = a.blocks[b];
+        LaneTotals totals(L::volume_rate_of_nothing(),
+                          [](const L::VolumeRate& p, const L::VolumeRate& q) { return L::volume_rate_merge(p, q); });
+        for_each_pack(block, [&](std::size_t slice, std::size_t lane, std::size_t place, std::ptrdiff_t lanes) {
+            const auto offset = static_cast<std::ptrdiff_t>(a.first_offset + block.first + place);
+            const Vector x = load(a.position, offset), v = load(a.velocity, offset);
+            const Number w = Number::load(a.inverse_mass + offset);
+            const PackRing ring = ring_of<true>(a, b * slices_in_block + slice, lane, x, v);
+            Vector force = ring.force;
+            if (a.external_force.x) force = force + load(a.external_force, offset);
+            if (a.has_pressure) force = force + ring.gradient * Number(a.numbers[block.body].pressure);
+            const Vector next = L::velocity_step(v, force, w, gravity, decay, dt);
+            store_some(a.gradient, offset, ring.gradient, lanes);
+            store_some(a.next_velocity, offset, next, lanes);
+            L::VolumeRate rate =
+                L::volume_rate_of(ring.gradient, next, w, Number::load(a.weight + offset), load_blocked(a, offset));
+            if (lanes < width) rate = where(lanes_below(static_cast<std::ptrdiff_t>(place), block.count), rate);
+            totals.add(slice, lane, rate);
+        });
+        float(*out)[slice_lanes] = a.sums[b].lanes;
+        totals.finish(block.count, [&](std::size_t lane, const L::VolumeRate& t) {
+            const Number values[] = {t.rate,     t.mobility, t.pushed.x, t.pushed.y,
+                                     t.pushed.z, t.thrust.x, t.thrust.y, t.thrust.z};
+            for (std::size_t k = 0; k < body_sum_count; ++k) values[k].store(out[k] + lane);
+        });
+    }
+}
+
+void volume_step(const BodyArguments& a, std::size_t first_block, std::size_t end_block)
+{
+    const StepConstants<float>& c = *a.constants;
+    const Number dt(c.dt), thickness(c.thickness);
+    for (std::size_t b = first_block; b < end_block; ++b) {
+        const BodyBlock& block = a.blocks[b];
+        const BodyNumbers& numbers = a.numbers[block.body];
+        const Vector mean = vector_of(numbers.mean);
+        const Number q(numbers.multiplier);
+        for_each_pack(block, [&](std::size_t, std::size_t, std::size_t place, std::ptrdiff_t lanes) {
+            const auto offset = static_cast<std::ptrdiff_t>(a.first_offset + block.first + place);
+            const Number w = Number::load(a.inverse_mass + offset), weight = Number::load(a.weight + offset);
+            const Vector gradient = load(a.gradient, offset);
+            const L::Motion now = {load(a.position, offset), load(a.velocity, offset)};
+            L::Motion next;
+            next.velocity = L::volume_velocity(load(a.next_velocity, offset), gradient, mean, w, weight, q);
+            next.position = L::position_step(now.position, next.velocity, dt);
+            L::Blocked held = L::blocked_by_nothing();
+            for (std::size_t k = 0; k < a.collider_count; ++k) {
+                const L::Collider collider = spread_collider<L::Collider, Number>(a.colliders[k]);
+                held = L::blocked_with(held, collider, next.position, thickness, w);
+                next = L::contact_step(now, next, collider, thickness, w, dt);
+            }
+            store_some(a.next_position, offset, next.position, lanes);
+            store_some(a.next_velocity, offset, next.velocity, lanes);
+            store_some(a.blocked, offset, held.normal, lanes);
+            store_some(a.blocked_count + offset, held.count, lanes);
+            store_some(a.direction, offset, L::volume_direction(gradient, mean, w, weight, held), lanes);
+        });
+    }
+}
+
+/// Of the next state along the directions; or (`measures`) of the current state as it is.
+void volume_cubic(const BodyArguments& a, std::size_t first_block, std::size_t end_block)
+{
+    const Vector zero{Number(0.0f), Number(0.0f), Number(0.0f)};
+    const ConstVectors position = a.measures ? a.position : as_const(a.next_position);
+    const ConstVectors direction = as_const(a.direction);
+    const auto change_of = [&](const std::uint32_t* index) { return a.measures ? zero : gather(direction, index); };
+    for (std::size_t b = first_block; b < end_block; ++b) {
+        const BodyBlock& block = a.blocks[b];
+        const Vector centre = vector_of(a.numbers[block.body].centre);
+        LaneTotals totals(L::volume_cubic_of_nothing(),
+                          [](const L::VolumeCubic& p, const L::VolumeCubic& q) { return L::volume_cubic_merge(p, q); });
+        for_each_pack(block, [&](std::size_t slice, std::size_t lane, std::size_t place, std::ptrdiff_t lanes) {
+            const std::size_t s = b * slices_in_block + slice;
+            const std::uint32_t begin = a.fans.start[s], end = a.fans.start[s + 1];
+            const std::uint32_t* index = a.fans.offset + begin * slice_lanes + lane;
+            const Vector apex = gather(position, index), apex_change = change_of(index);
+            L::FanSums fan = L::fan_of_nothing();
+            Vector side = zero, change = zero;
+            for (std::uint32_t r = begin + 1; r < end; ++r) {
+                index += slice_lanes;
+                const Vector next_side = gather(position, index) - apex, next_change = change_of(index) - apex_change;
+                if (r > begin + 1) fan = L::fan_add(fan, side, next_side, change, next_change);
+                side = next_side;
+                change = next_change;
+            }
+            L::VolumeCubic cubic = L::fan_cubic(fan, apex - centre, apex_change);
+            if (a.measures) cubic.first = cubic.second = cubic.third = Number(0.0f);  // without the sign of zeros
+            if (lanes < width) cubic = where(lanes_below(static_cast<std::ptrdiff_t>(place), block.count), cubic);
+            totals.add(slice, lane, cubic);
+        });
+        float(*out)[slice_lanes] = a.sums[b].lanes;
+        totals.finish(block.count, [&](std::size_t lane, const L::VolumeCubic& t) {
+            const Number values[] = {t.volume, t.low, t.first, t.second, t.third, t.arm.x, t.arm.y, t.arm.z};
+            for (std::size_t k = 0; k < body_sum_count; ++k) values[k].store(out[k] + lane);
+        });
+    }
+}
+
+void volume_correct(const BodyArguments& a, std::size_t first_block, std::size_t end_block)
+{
+    const Number inverse_dt(a.constants->inverse_dt);
+    for (std::size_t b = first_block; b < end_block; ++b) {
+        const BodyBlock& block = a.blocks[b];
+        const Number s(a.numbers[block.body].multiplier);
+        for_each_pack(block, [&](std::size_t, std::size_t, std::size_t place, std::ptrdiff_t lanes) {
+            const auto offset = static_cast<std::ptrdiff_t>(a.first_offset + block.first + place);
+            const L::Motion end = L::volume_corrected({load(a.next_position, offset), load(a.next_velocity, offset)},
+                                                      load(a.direction, offset), s, inverse_dt);
+            store_some(a.next_position, offset, end.position, lanes);
+            store_some(a.next_velocity, offset, end.velocity, lanes);
+        });
+    }
+}

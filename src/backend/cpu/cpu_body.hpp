@@ -1,0 +1,45 @@
+// A soft body as the kernels of the CPU want it.
+#pragma once
+
+#include <vector>
+
+#include "backend/cpu/kernels.hpp"
+#include "backend/host/plain_cloth.hpp"
+
+namespace pliant::cpu {
+
+class CpuBody {
+public:
+    /// Nothing for a cloth.
+    explicit CpuBody(const PlainCloth<float>& cloth);
+
+    static bool has_kernel(Pass pass);
+    /// Units of a call that a kernel runs: blocks of nodes or of fans.
+    std::size_t size_of(const Call& call) const;
+    /// Before the parts of a call run: what they need to know of each body as a whole. Not for more than one thread.
+    void prepare(const Call& call, PlainCloth<float>& cloth, const StepConstants<float>& constants);
+    /// Runs the blocks [begin, end) of a call; parts may run at once.
+    void run(const Call& call, PlainCloth<float>& cloth, const Kernels& kernels, const StepConstants<float>& constants,
+             std::span<const Laws<float>::Collider> colliders, std::size_t begin, std::size_t end);
+
+private:
+    struct SliceArrays {
+        std::vector<std::uint32_t> start{0}, offset;
+        std::vector<float> rest_length;
+        Slices view() const { return {start.data(), offset.data(), rest_length.empty() ? nullptr : rest_length.data()}; }
+    };
+    struct Entry {
+        std::uint32_t node;
+        float rest_length;
+    };
+    /// Slices of blocks; `row` gives the entries of a node or fan.
+    template <class Row>
+    static SliceArrays sliced(const std::vector<BodyBlock>& blocks, const NodeLayout& layout, bool springs, Row row);
+
+    SliceArrays ring_, links_, fans_;
+    std::vector<BodyNumbers> numbers_;  // by body
+    std::vector<LaneSums> sums_;        // by block, of the pass that runs
+    bool has_links_ = false;
+};
+
+}  // namespace pliant::cpu

@@ -1,0 +1,44 @@
+#ifndef BODY_CUBICS_GLSL
+#define BODY_CUBICS_GLSL
+// The cubic of the exact correction, summed up.
+#include "body_sums.glsl"
+
+shared VolumeCubic cubic_values[256], cubic_lanes[16];
+
+VolumeCubic merged_cubic(VolumeCubic value)
+{
+    uint k = gl_LocalInvocationID.x;
+    cubic_values[k] = value;
+    barrier();
+    if (k < 16u) {
+        for (uint j = 1u; j < 16u; ++j) value = volume_cubic_merge(value, cubic_values[k + 16u * j]);
+        cubic_lanes[k] = value;
+    }
+    barrier();
+    value = cubic_lanes[0];
+    for (uint j = 1u; j < 16u; ++j) value = volume_cubic_merge(value, cubic_lanes[j]);
+    return value;
+}
+
+VolumeCubic cubic_of_block(uint block)
+{
+    uint at = body_topology[cubic_sums_at] + 2u * block;
+    vec4 a = body_sums[at], b = body_sums[at + 1u];
+    VolumeCubic value;
+    value.volume = a.x;
+    value.low = a.y;
+    value.first = a.z;
+    value.second = a.w;
+    value.third = b.x;
+    value.arm = b.yzw;
+    return value;
+}
+
+VolumeCubic cubic_of_body(BodyPart part)
+{
+    VolumeCubic value = volume_cubic_of_nothing();
+    for (uint k = gl_LocalInvocationID.x; k < part.fan_block_count; k += 256u)
+        value = volume_cubic_merge(value, cubic_of_block(part.first_fan_block + k));
+    return merged_cubic(value);
+}
+#endif

@@ -1,0 +1,15 @@
+#ifndef BODY_SUMS_GLSL
+#define BODY_SUMS_GLSL
+// Sums of 256 values by one fixed tree: 16 lanes, each of every 16th value in their order; then the lanes in theirs. So
+// it is within a block, and then, by whoever needs the sum of a body, over its blocks, every 256th of which are added
+// first. Two barriers instead of eight, and on the CPU the lanes are those of a register.
+#include "body.glsl"
+
+#ifndef BODY_SUMS_ACCESS
+#define BODY_SUMS_ACCESS
+#endif
+layout(set = 0, binding = 28, std430) BODY_SUMS_ACCESS buffer BodySums { vec4 body_sums[]; };
+
+// Of a body: xyz its centre, w 6 V.
+vec4 record_of(uint body) { return body_sums[body_topology[records_at] + body]; }
+#endif

@@ -1,0 +1,13 @@
+#version 460
+// What contact and pins have made of the volume, and how it changes along the directions.
+#extension GL_GOOGLE_include_directive : require
+#define POSITION_OUT_ACCESS readonly
+#define POINT(node) position_out[node].xyz
+#define CHANGE(node) directions[node].xyz
+#include "cloth.glsl"
+layout(set = 0, binding = 26, std430) readonly buffer Direction { vec4 directions[]; };
+#include "body_fans.glsl"
+
+layout(local_size_x = 256) in;
+
+void main() { sum_fans(); }

@@ -1,0 +1,87 @@
+// Edges and components of a triangle mesh; what inspection and repair share.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "pliant/mesh.hpp"
+
+namespace pliant {
+
+/// Disjoint sets of 0 .. n-1, with path halving. The root of a set is its smallest member.
+class DisjointSets {
+public:
+    explicit DisjointSets(std::size_t n)
+    {
+        parents_.reserve(n);
+        for (std::size_t i = 0; i < n; ++i) parents_.push_back(i);
+    }
+
+    std::size_t root(std::size_t i)
+    {
+        while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
+        return i;
+    }
+    bool is_root(std::size_t i) const { return parents_[i] == i; }
+    void join(std::size_t a, std::size_t b)
+    {
+        const auto [low, high] = std::minmax({root(a), root(b)});
+        parents_[high] = low;
+    }
+
+private:
+    std::vector<std::size_t> parents_;
+};
+
+/// One side of a triangle, from the triangle's corner `side` to the next one.
+struct EdgeUse {
+    std::uint32_t low, high;  // the two vertices
+    std::size_t corner;       // 3 * triangle + side
+
+    bool same_edge(const EdgeUse& other) const { return low == other.low && high == other.high; }
+    std::size_t triangle() const { return corner / 3; }
+    /// Whether its triangle goes along it from low to high.
+    bool goes_up(const SurfaceMesh& mesh) const { return mesh.triangles[corner / 3][corner % 3] == low; }
+};
+
+inline bool has_repeated_vertex(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
+
+/// All sides, those of one edge together. A triangle (a, a, b) uses the edge a-b once.
+std::vector<EdgeUse> edge_uses(const SurfaceMesh& mesh);
+
+/// Calls `visit` with the uses of each edge.
+template <class Visit>
+void for_each_edge(std::span<const EdgeUse> uses, Visit visit)
+{
+    for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
+        while (end < uses.size() && uses[end].same_edge(uses[begin])) ++end;
+        visit(uses.subspan(begin, end - begin));
+    }
+}
+
+/// The component of each triangle, from 0 in the order of their first triangle. Triangles are in one
+/// component when they share a vertex.
+struct Components {
+    std::vector<std::uint32_t> of_triangle;
+    std::size_t count = 0;
+};
+Components components_of(const SurfaceMesh& mesh);
+
+/// Whether the triangle is no higher than the rounding of its float coordinates.
+bool is_flat(const SurfaceMesh& mesh, const Triangle& triangle);
+
+/// Six times the signed volume between the triangle and the origin, m^3.
+inline double volume6(const SurfaceMesh& mesh, const Triangle& t, Vec3d origin)
+{
+    return dot(to_double(mesh.vertices[t[0]]) - origin,
+               cross(to_double(mesh.vertices[t[1]]) - origin, to_double(mesh.vertices[t[2]]) - origin));
+}
+
+/// m^3; a closed surface of this area (m^2) that encloses less is called flat. A ball has 0.09 area^1.5, a
+/// square plate as thick as 3e-6 of its width this much.
+inline double flat_volume(double area) { return 1e-6 * area * std::sqrt(area); }
+
+}  // namespace pliant

@@ -1,0 +1,495 @@
+// Soft bodies against what is known of them: the gradient against finite differences, what must not change, and the
+// bars of the volume that is kept.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <random>
+#include <string>
+
+#include "pliant/mesh_generators.hpp"
+#include "solve/frame.hpp"
+#include "test_errors.hpp"
+#include "test_runners.hpp"
+
+namespace pliant {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// 6 V about the first vertex, in double.
+double sixfold(const std::vector<Vec3d>& x, std::span<const Triangle> triangles)
+{
+    double sum = 0;
+    for (const Triangle& t : triangles) sum += dot(x[t[0]] - x[0], cross(x[t[1]] - x[0], x[t[2]] - x[0]));
+    return sum;
+}
+
+std::vector<Vec3d> doubles(std::span<const Vec3> values)
+{
+    std::vector<Vec3d> result;
+    for (const Vec3& a : values) result.push_back(to_double(a));
+    return result;
+}
+
+Cloth ball(std::uint32_t frequency = 8, const BodyOptions& options = {})
+{
+    Cloth cloth = Cloth::soft_body(icosphere_mesh({.radius = 0.5, .frequency = frequency}), options, {.node_mass = 1});
+    cloth.springs.structural = {5000, 200};
+    cloth.damping = 0;
+    return cloth;
+}
+
+Scene free_scene(const Cloth& body)
+{
+    Scene scene;
+    scene.method = Method::volume;
+    scene.gravity = {0, 0, 0};
+    scene.time = {.duration = 1, .frame_rate = 1000, .substeps = 10};
+    scene.add(body);
+    return scene;
+}
+
+/// A model whose nodes are displaced and moving, at random but the same in every run.
+ClothModel shaken(const Scene& scene, float shake, float speed)
+{
+    ClothModel model(scene.cloth(0), scene);
+    std::mt19937 engine(3);
+    std::uniform_real_distribution<float> unit(-1, 1);
+    for (Vec3& x : model.positions)
+        x = {x.x + shake * unit(engine), x.y + shake * unit(engine), x.z + shake * unit(engine)};
+    for (Vec3& v : model.velocities) v = {speed * unit(engine), speed * unit(engine), speed * unit(engine)};
+    return model;
+}
+
+struct Momenta {
+    Vec3d linear, angular;
+    double scale = 0;  ///< sum of m |v|
+};
+Momenta momenta_of(PassRunner& runner, const ClothModel& model, std::uint32_t parity)
+{
+    std::vector<float> x, v;
+    runner.read(0, Resource::position, parity, x);
+    runner.read(0, Resource::velocity, parity, v);
+    Momenta sum;
+    for (std::size_t i = 0; i < model.node_count(); ++i) {
+        const double m = double{model.masses[i]};
+        const Vec3d p = {double{x[3 * i]}, double{x[3 * i + 1]}, double{x[3 * i + 2]}};
+        const Vec3d u = Vec3d{double{v[3 * i]}, double{v[3 * i + 1]}, double{v[3 * i + 2]}} * m;
+        sum.linear = sum.linear + u;
+        sum.angular = sum.angular + cross(p, u);
+        sum.scale += std::sqrt(dot(u, u));
+    }
+    return sum;
+}
+double size_of(Vec3d a) { return std::sqrt(dot(a, a)); }
+
+std::uint32_t run_steps(PassRunner& runner, const ClothModel& model, std::uint32_t steps, double dt)
+{
+    Program program{steps, {}, 0};
+    program.parity_after = append_frame({&model, 1}, steps, 0, program.calls);
+    runner.run(program, {dt, 0, {}, true});
+    return program.parity_after;
+}
+
+// --- the gradient ---------------------------------------------------------------------------------------------------------
+
+TEST(VolumeGradient, MatchesFiniteDifferencesAndPushesAndTurnsNothing)
+{
+    for (SurfaceMesh mesh : {icosphere_mesh({.radius = 0.5, .frequency = 4}), blob_mesh({.vertices = 1000}),
+                             torus_mesh({.major_segments = 20, .minor_segments = 9})}) {
+        const Scene scene = free_scene(Cloth::soft_body(std::move(mesh)));
+        const ClothModel model = shaken(scene, 0.01f, 0);
+        const auto runner = test::make_runner(Backend::reference, model);
+        runner->run({1, {{Pass::volume_gather, 0, 0, 0}}, 0}, {1e-4, 0, {}, true});
+        std::vector<float> g;
+        runner->read(0, Resource::gradient, 0, g);
+
+        std::vector<Vec3d> x = doubles(model.positions);
+        // 6 V is linear in each coordinate, so that a difference over 0.1 m is exact but for rounding of 1e-16 of 6 V.
+        constexpr double h = 0.05;
+        double largest = 0;
+        for (const float a : g) largest = std::max(largest, std::abs(double{a}));
+        Vec3d sum{}, turn{};
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            double* const coordinates[] = {&x[i].x, &x[i].y, &x[i].z};
+            for (std::size_t k = 0; k < 3; ++k) {
+                const double before = *coordinates[k];
+                *coordinates[k] = before + h;
+                const double above = sixfold(x, model.triangles());
+                *coordinates[k] = before - h;
+                const double below = sixfold(x, model.triangles());
+                *coordinates[k] = before;
+                EXPECT_NEAR(double{g[3 * i + k]}, (above - below) / (2 * h), 1e-6 * largest) << "node " << i;
+            }
+            const Vec3d gradient{double{g[3 * i]}, double{g[3 * i + 1]}, double{g[3 * i + 2]}};
+            sum = sum + gradient;
+            turn = turn + cross(x[i], gradient);
+        }
+        // Read back as floats: each number is off by 2^-25 of itself at most.
+        const double tolerance = 0x1p-24 * largest * static_cast<double>(x.size());
+        EXPECT_LE(size_of(sum), tolerance);
+        EXPECT_LE(size_of(turn), tolerance);
+    }
+}
+
+TEST(VolumeGradient, AsPrintedIsNeitherAGradientNorFreeOfThrust)
+{
+    // Eq. (10) of the paper: every entry is -3 times the right one, but dV/dz2 is +3 times.
+    const SurfaceMesh mesh = blob_mesh({.vertices = 1000});  // has no symmetry that would hide the thrust
+    std::vector<Vec3d> printed(mesh.vertices.size()), right(mesh.vertices.size());
+    const std::vector<Vec3d> x = doubles(mesh.vertices);
+    for (const Triangle& t : mesh.triangles)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3d entry = cross(x[t[(k + 1) % 3]], x[t[(k + 2) % 3]]) * (1.0 / 6);
+            right[t[k]] = right[t[k]] + entry;
+            printed[t[k]] = printed[t[k]] + Vec3d{-3 * entry.x, -3 * entry.y, (k == 1 ? 3 : -3) * entry.z};
+        }
+    Vec3d sum{}, sum_printed{};
+    double along = 0, along_printed = 0;  // of a body that grows, 3 V
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        sum = sum + right[i];
+        sum_printed = sum_printed + printed[i];
+        along += dot(right[i], x[i]);
+        along_printed += dot(printed[i], x[i]);
+    }
+    const double volume = sixfold(x, mesh.triangles) / 6;
+    EXPECT_NEAR(along, 3 * volume, 1e-12);
+    EXPECT_LE(size_of(sum), 1e-12);
+    EXPECT_LT(along_printed, -volume);     // it points inward
+    EXPECT_GT(size_of(sum_printed), 1e-3);  // m2: it pushes the body as a whole
+}
+
+TEST(Volume, DoesNotChangeWhenABodyIsMovedAndTurned)
+{
+    const SurfaceMesh mesh = blob_mesh({.vertices = 1500});
+    double first = 0;
+    for (const Vec3d place : {Vec3d{0, 0, 0}, Vec3d{100, -30, 7}, Vec3d{1000, 1000, 1000}}) {
+        Cloth body = Cloth::soft_body(mesh);
+        body.position = place;
+        body.rotation = place * 0.7;
+        Simulation simulation(free_scene(body), test::on(Backend::cpu));
+        const double volume = simulation.report().bodies.at(0).volume;
+        if (first == 0) first = volume;
+        // Vertices are rounded to floats near the body's own origin: 2^-24 of 1 m each, and they average out.
+        EXPECT_NEAR(volume / first, 1, 1e-6);
+    }
+}
+
+// --- what the constraint must not change --------------------------------------------------------------------------------------
+
+TEST(VolumeMomentum, AFreeBodyKeepsItsMomenta)
+{
+    constexpr std::uint32_t steps = 400;
+    for (const bool weighted : {false, true})
+        for (const Backend backend : {Backend::reference, Backend::cpu}) {
+            BodyOptions options;
+            if (weighted) options.volume.focus = VolumeFocus{{0, 0.5, 0}, 0.8};
+            const Scene scene = free_scene(ball(6, options));
+            const ClothModel model = shaken(scene, 0.01f, 1);
+            const auto runner = test::make_runner(backend, model);
+            const Momenta before = momenta_of(*runner, model, 0);
+            const Momenta after = momenta_of(*runner, model, run_steps(*runner, model, steps, 1e-4));
+            // A step rounds a velocity by 2^-24 of it, and the correction by that of the positions over dt; roundings are
+            // independent of each other, so that they grow with the root of their number. In double only reading back
+            // rounds, by 2^-24 of each number, once.
+            const double rounding = backend == Backend::reference ? 4 * 0x1p-24 : 64 * 0x1p-24;
+            EXPECT_LE(size_of(after.linear - before.linear) / before.scale, rounding) << name_of(backend) << weighted;
+            if (!weighted) {  // weights take the thrust off, and not the torque
+                EXPECT_LE(size_of(after.angular - before.angular) / before.scale, rounding) << name_of(backend);
+            }
+        }
+}
+
+TEST(VolumeEnergy, IsNotPumpedIntoAFreeBody)
+{
+    // Without damping, oscillating for 4,000 steps: kinetic and elastic energy stay what they were to the order of the
+    // integrator, whose energy error is of the order omega dt = 0.02.
+    Cloth body = ball(6);
+    body.springs.structural = {5000, 0};
+    const Scene scene = free_scene(body);
+    for (const Backend backend : {Backend::reference, Backend::cpu}) {
+        const ClothModel model = shaken(scene, 0.005f, 0.3f);
+        const auto runner = test::make_runner(backend, model);
+        run_steps(*runner, model, 2, 1e-4);  // the first step takes away the velocity along the gradient
+        const MeasureTotals before = runner->measures(0);
+        double most = 0, least = 1e30;
+        for (int frame = 0; frame < 20; ++frame) {
+            run_steps(*runner, model, 200, 1e-4);
+            const MeasureTotals now = runner->measures(0);
+            most = std::max(most, now.kinetic_energy + now.elastic_energy);
+            least = std::min(least, now.kinetic_energy + now.elastic_energy);
+        }
+        const double energy = before.kinetic_energy + before.elastic_energy;
+        EXPECT_LE(most, 1.03 * energy) << name_of(backend);
+        EXPECT_GE(least, 0.97 * energy) << name_of(backend);
+    }
+}
+
+TEST(VolumePlace, AKilometreAwayABodyBehavesAsAtTheOrigin)
+{
+    std::vector<Vec3> velocities[2];
+    for (const bool far : {false, true}) {
+        Cloth body = ball(6);
+        body.position = {far ? 1000.0 : 0.0, 0.51, far ? -1000.0 : 0.0};
+        Scene scene = free_scene(body);
+        scene.gravity = {0, -9.81, 0};
+        scene.add(Plane{});
+        scene.add(Sphere{.centre = {far ? 1000.4 : 0.4, 0.1, far ? -1000.0 : 0.0}, .radius = 0.25});
+        Simulation simulation(scene, test::on(Backend::cpu));
+        for (int frame = 0; frame < 100; ++frame) simulation.advance(1e-3);
+        const auto v = simulation.velocities();
+        velocities[far].assign(v.begin(), v.end());
+        EXPECT_LE(simulation.report().volume.error_max, 1e-6);
+    }
+    // The same coordinates against the body's own origin, but for the sphere's, which 1000.4 - 1000 rounds in double.
+    double apart = 0, fastest = 0;
+    for (std::size_t i = 0; i < velocities[0].size(); ++i) {
+        apart = std::max(apart, size_of(to_double(velocities[0][i]) - to_double(velocities[1][i])));
+        fastest = std::max(fastest, size_of(to_double(velocities[0][i])));
+    }
+    EXPECT_LE(apart, 1e-3 * fastest);
+}
+
+// --- the bars -------------------------------------------------------------------------------------------------------------
+
+/// A body that comes down on a plane at 2 m/s from 1 cm above it, one step in a frame: after 50 of 400 frames it hits.
+Scene impact(Cloth body, double dt = 1e-4)
+{
+    const Scene probe = free_scene(body);
+    const ClothModel model(probe.cloth(0), probe);
+    double lowest = 1e30;
+    for (const Vec3& x : model.positions) lowest = std::min(lowest, double{x.y} + model.origin.y);
+    body.position.y += 0.012 - lowest;
+    body.velocity = {0, -2, 0};
+    Scene scene = free_scene(body);
+    scene.gravity = {0, -9.81, 0};
+    scene.time = {.duration = 1, .frame_rate = 1 / dt, .substeps = 1};
+    scene.add(Plane{});
+    return scene;
+}
+
+VolumeReport fall(const Scene& scene, Backend backend, int frames)
+{
+    Simulation simulation(scene, test::on(backend));
+    for (int frame = 0; frame < frames; ++frame) simulation.advance(1 / scene.time.frame_rate);
+    EXPECT_TRUE(simulation.report().finite);
+    EXPECT_EQ(simulation.report().validation_messages, 0u);
+    double lowest = 1e30;
+    for (const Vec3& x : simulation.positions()) lowest = std::min(lowest, double{x.y});
+    EXPECT_LT(lowest, 0.0025) << "it never came down";
+    return simulation.report().volume;
+}
+
+constexpr double bar = 1e-4;  // 0.01 %
+
+TEST(VolumeBar, FreeFallOfSphereAndTorus)
+{
+    Cloth torus = Cloth::soft_body(torus_mesh({.major_segments = 36, .minor_segments = 18}), {}, {.node_mass = 1});
+    torus.springs.structural = {5000, 200};
+    for (const Cloth& body : {ball(16), torus}) {
+        EXPECT_LE(fall(impact(body), Backend::cpu, 400).error_max, bar);
+        EXPECT_LE(fall(impact(body), Backend::vulkan, 100).error_max, bar);
+    }
+}
+
+TEST(VolumeBar, FreeFallOfScannedModels)
+{
+    const fs::path folder = fs::path(PLIANT_SHARED_DIR) / "meshes";
+    if (!fs::exists(folder)) GTEST_SKIP() << "no scanned models in " << folder;
+    for (const char* name :
+         {"bunny_2.5k.ply", "bunny_8k.ply", "bunny_35k.ply", "armadillo_15k.ply", "spot_31k.ply"}) {
+        if (!fs::exists(folder / name)) continue;
+        Cloth body = Cloth::soft_body(read_mesh(folder / name), {}, {.node_mass = 1});
+        body.springs.structural = {5000, 200};
+        const VolumeReport report = fall(impact(body), Backend::cpu, 400);
+        EXPECT_LE(report.error_max, bar) << name;
+        RecordProperty(name, std::to_string(report.error_max));
+    }
+}
+
+TEST(VolumeBar, SpringsAloneCollapse)
+{
+    Scene scene = read_scene("free_fall", {"method=mass_spring"});
+    Simulation simulation(scene, test::on(Backend::cpu));
+    for (int frame = 0; frame < 400; ++frame) simulation.advance(1 / scene.time.frame_rate);
+    EXPECT_GT(simulation.report().volume.loss_max, 0.5);
+}
+
+TEST(VolumeBar, TwistedCubeWithAndWithoutTheConstraint)
+{
+    for (const char* method : {"method=volume", "method=mass_spring"}) {
+        const Scene scene = read_scene("twist", {method});
+        Simulation simulation(scene, test::on(Backend::cpu));
+        EXPECT_EQ(simulation.spring_count(), 1777u);
+        EXPECT_EQ(simulation.node_count(), 386u);
+        for (int frame = 0; frame < 200; ++frame) simulation.advance(1 / scene.time.frame_rate);
+        if (scene.method == Method::volume)
+            EXPECT_LE(simulation.report().volume.error_max, 1e-5);
+        else
+            EXPECT_GT(simulation.report().volume.error_max, 0.05);
+    }
+}
+
+TEST(VolumeBar, LongSteps)
+{
+    // 1e-3 s, and a sixtieth in 16, with what explicit springs stand there.
+    for (const double dt : {1e-3, 1.0 / 960}) {
+        Cloth body = ball(12);
+        body.springs.structural = {5000, 50};
+        const Scene scene = impact(body, dt);
+        Simulation simulation(scene, test::on(Backend::cpu));
+        EXPECT_GT(simulation.stable_step(), dt);
+        EXPECT_LE(fall(scene, Backend::cpu, 400).error_max, bar) << dt;
+    }
+}
+
+TEST(VolumeBits, AreTheSameOnCpuAndVulkan)
+{
+    const Scene scene = impact(ball(5));
+    std::uint64_t hashes[2];
+    for (const bool vulkan : {false, true}) {
+        Simulation simulation(scene, test::on(vulkan ? Backend::vulkan : Backend::cpu));
+        for (int frame = 0; frame < 80; ++frame) simulation.advance(1e-4);
+        hashes[vulkan] = simulation.state_hash();
+    }
+    EXPECT_EQ(hashes[0], hashes[1]);
+}
+
+// --- what is asked for ------------------------------------------------------------------------------------------------------
+
+TEST(VolumeTarget, IsFollowedOverTime)
+{
+    BodyOptions options;
+    options.volume.target = {{0, 1}, {0.02, 1.3}};
+    const Scene scene = free_scene(ball(5, options));
+    for (const Backend backend : {Backend::reference, Backend::cpu, Backend::vulkan}) {
+        Simulation simulation(scene, test::on(backend));
+        for (int frame = 0; frame < 10; ++frame) simulation.advance(1e-3);
+        EXPECT_NEAR(simulation.report().bodies.at(0).ratio, 1.15, 1e-5) << name_of(backend);
+        EXPECT_LE(simulation.report().volume.error_max, 1e-5) << name_of(backend);
+    }
+}
+
+TEST(VolumePressure, PushesEveryNodeOutwardByItsShareOfTheArea)
+{
+    BodyOptions options;
+    options.volume.pressure = {{0, 100}};
+    Cloth body = ball(8, options);
+    body.springs.structural = {0, 0};
+    Scene scene = free_scene(body);
+    scene.method = Method::mass_spring;
+    scene.time.substeps = 1;
+    Simulation simulation(scene, test::on(Backend::cpu));
+    const std::vector<Vec3> x(simulation.positions().begin(), simulation.positions().end());
+    simulation.advance(1e-3);
+    // 100 Pa on the 3.14 m2 of a sphere (its mesh: 1.1 % less), on 642 nodes of 1 kg, for 1 ms: in sum 0.3108 N s outward.
+    double outward = 0;
+    Vec3d sum{};
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const Vec3d v = to_double(simulation.velocities()[i]), p = to_double(x[i]);
+        outward += dot(v, p) / size_of(p);
+        sum = sum + v;
+    }
+    double area = 0;
+    for (const Triangle& t : simulation.triangles()) {
+        const Vec3d a = to_double(x[t[0]]);
+        area += 0.5 * size_of(cross(to_double(x[t[1]]) - a, to_double(x[t[2]]) - a));
+    }
+    EXPECT_NEAR(outward, 100 * area * 1e-3, 0.01 * outward);  // nodes' normals lean from the radius by a few degrees
+    EXPECT_LE(size_of(sum), 1e-6);
+}
+
+TEST(VolumeForces, ATorqueTurnsItsRegionAlone)
+{
+    BodyOptions options;
+    options.forces = {{{{-1, 0.2, -1}, {1, 1, 1}}, {0, 0, 3}, {0, 2, 0}}};
+    Cloth body = ball(6, options);
+    body.springs.structural = {0, 0};
+    Scene scene = free_scene(body);
+    scene.method = Method::mass_spring;
+    scene.time.substeps = 1;
+    for (const Backend backend : {Backend::reference, Backend::cpu, Backend::vulkan}) {
+        Simulation simulation(scene, test::on(backend));
+        const std::vector<Vec3> x(simulation.positions().begin(), simulation.positions().end());
+        simulation.advance(1e-3);
+        Vec3d force{}, torque{};
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            const Vec3d v = to_double(simulation.velocities()[i]) * 1e3;  // of 1 kg, over dt
+            force = force + v;
+            torque = torque + cross(to_double(x[i]), v);
+            if (x[i].y < 0.19f) {
+                EXPECT_EQ(size_of(v), 0);
+            }
+        }
+        EXPECT_NEAR(force.z, 3, 1e-4);
+        EXPECT_NEAR(force.x, 0, 1e-4);
+        EXPECT_NEAR(torque.y, 2, 1e-4);
+    }
+}
+
+TEST(VolumeContact, TheCorrectionDoesNotPushNodesIntoThePlate)
+{
+    Scene scene = read_scene("press", {"bodies[0].blob.vertices=1000"});
+    Simulation simulation(scene, test::on(Backend::cpu));
+    double deepest = 0;
+    for (int frame = 0; frame < 200; ++frame) {
+        simulation.advance(1 / scene.time.frame_rate);
+        deepest = std::max(deepest, simulation.report().measures.max_penetration);
+    }
+    // A node that comes near in a step and is moved by that step's correction may enter by that much: 10 um at 1e-4 s.
+    EXPECT_LE(deepest, 1e-4);
+    EXPECT_LE(simulation.report().volume.error_max, bar);
+}
+
+TEST(VolumeBodies, AreGivenInTheOrderOfTheirMeshes)
+{
+    const SurfaceMesh mesh = icosphere_mesh({.radius = 0.5, .frequency = 5});
+    Scene scene = free_scene(Cloth::soft_body(mesh));
+    scene.add(Cloth::sheet({.rows = 3, .columns = 3}));
+    Simulation simulation(scene, test::on(Backend::cpu));
+    ASSERT_EQ(simulation.positions(0).size(), mesh.vertices.size());
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+        EXPECT_LE(size_of(to_double(simulation.positions(0)[i]) - to_double(mesh.vertices[i])), 1e-7);
+    ASSERT_EQ(simulation.triangles(0).size(), mesh.triangles.size());
+    EXPECT_EQ(simulation.triangles(0)[7], mesh.triangles[7]);
+    EXPECT_EQ(simulation.positions(1).size(), 9u);
+    EXPECT_EQ(simulation.body_count(), 1u);
+}
+
+TEST(VolumeBodies, AnOpenMeshIsRefused)
+{
+    SurfaceMesh open = icosphere_mesh({.radius = 0.5, .frequency = 3});
+    open.triangles.pop_back();
+    EXPECT_ERROR(Simulation simulation(free_scene(Cloth::soft_body(open))), bad_input, "cannot be a body with volume");
+    SurfaceMesh inward = icosphere_mesh({.radius = 0.5, .frequency = 3});
+    for (Triangle& t : inward.triangles) std::swap(t[0], t[1]);
+    EXPECT_ERROR(Simulation simulation(free_scene(Cloth::soft_body(inward))), bad_input, "body with volume");
+}
+
+TEST(VolumeBodies, WhatDoesNotFitIsRefused)
+{
+    const auto refusal = [](const std::function<void(Scene&, Cloth&)>& change) {
+        return std::string(test::error_of([&] {
+            Cloth body = ball(3);
+            Scene scene = free_scene(Cloth::sheet({.rows = 3, .columns = 3}));
+            change(scene, body);
+            scene.add(body);
+            validate(scene);
+        }).what());
+    };
+    EXPECT_NE(refusal([](Scene& s, Cloth&) { s.method = Method::constraint; }).find("bodies[0].springs"),
+              std::string::npos);
+    EXPECT_NE(refusal([](Scene&, Cloth& b) { b.body->volume.target = {{0, 0}}; }).find("target[0].value"),
+              std::string::npos);
+    EXPECT_NE(refusal([](Scene&, Cloth& b) { b.body->volume.pressure = {{1, 0}, {1, 5}}; }).find("later"),
+              std::string::npos);
+    EXPECT_NE(refusal([](Scene&, Cloth& b) { b.body->volume.weights = {1, 2}; }).find("weight"), std::string::npos);
+    EXPECT_NE(refusal([](Scene&, Cloth& b) { b.formulation = Formulation::spring_list; }).find("formulation"),
+              std::string::npos);
+    EXPECT_NE(refusal([](Scene&, Cloth& b) { b.body->internal.neighbours = 0; }).find("neighbours"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace pliant
