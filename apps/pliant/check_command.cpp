@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "commands.hpp"
-#include "files/atomic_file.hpp"
 #include "files/numbered_name.hpp"
 #include "pliant/error.hpp"
 #include "pliant/mesh.hpp"
@@ -34,18 +33,35 @@ int check_scene(const std::string& name, const std::vector<std::string>& overrid
     return 0;
 }
 
-/// What the default repair would do, and what it would leave.
-void preview_repair(const SurfaceMesh& mesh)
+/// Whether the mesh could be a body with volume, and what is left.
+std::string state_of(const SurfaceMesh& mesh)
 {
-    SurfaceMesh mended = mesh;
-    const RepairReport report = repair_mesh(mended);
+    const MeshReport report = inspect_mesh(mesh);
+    if (report.closed && report.oriented) {
+        char volume[64];
+        std::snprintf(volume, sizeof volume, "%.6g", report.volume);
+        return "closed, with a volume of " + std::string(volume) + " m^3";
+    }
+    return report.boundary_loops > 0
+               ? "open, with " + std::to_string(report.boundary_loops) + " boundary loops"
+               : "not closed";
+}
+
+/// What the default repair would do, and what holes would take.
+void preview_repair(SurfaceMesh mesh)
+{
+    const RepairReport report = repair_mesh(mesh);
     const std::string lines = describe(report);
-    std::printf("--repair would %s\n%s", lines.empty() ? "change nothing" : "do this:", lines.c_str());
+    if (lines.empty())
+        std::printf("--repair would change nothing\n");
+    else
+        std::printf("--repair would do this, after which the mesh is %s:\n%s", state_of(mesh).c_str(),
+                    lines.c_str());
     if (report.open_loops == 0) return;
-    const RepairReport filled = repair_mesh(mended, {.fill_holes = true});
-    const std::size_t left = filled.open_loops;
-    std::printf("with --fill-holes as well:\n%s", describe(filled).c_str());
-    if (left > 0) std::printf("  boundary loops left: %zu\n", left);
+    const std::string filled = describe(repair_mesh(mesh, {.fill_holes = true}));
+    if (!filled.empty())
+        std::printf("--fill-holes would do this as well, after which it is %s:\n%s", state_of(mesh).c_str(),
+                    filled.c_str());
 }
 
 int check_mesh(const CheckOptions& options)
