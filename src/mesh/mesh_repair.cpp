@@ -1,6 +1,7 @@
 // repair_mesh: the order of its steps, and triangles that must go.
-#include <cmath>
+#include <set>
 #include <string>
+#include <utility>
 
 #include "mesh/hole_filling.hpp"
 #include "mesh/mesh_formats.hpp"
@@ -63,6 +64,7 @@ bool end_flat_triangles(SurfaceMesh& mesh, RepairReport& report)
         return found != uses.end() && found->same_edge(key);
     };
     std::vector<bool> changed(mesh.triangles.size()), drop(mesh.triangles.size());
+    std::set<std::pair<std::uint32_t, std::uint32_t>> made;  // edges of this pass, which `uses` does not know
     const auto drops_before = report.dropped_triangles, flips_before = report.flipped_edges;
     for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
         if (edge.size() > 2) return;
@@ -85,7 +87,8 @@ bool end_flat_triangles(SurfaceMesh& mesh, RepairReport& report)
             const std::uint32_t a = vertex(edge[k], 0), b = vertex(edge[k], 1), tip = vertex(edge[k], 2),
                                 far_tip = vertex(opposite, 2);
             const Triangle first = {tip, a, far_tip}, second = {far_tip, b, tip};
-            if (tip == far_tip || joined(tip, far_tip) || is_flat(mesh, first) || is_flat(mesh, second))
+            if (tip == far_tip || joined(tip, far_tip) || is_flat(mesh, first) || is_flat(mesh, second) ||
+                !made.insert(std::minmax(tip, far_tip)).second)
                 continue;
             mesh.triangles[flat] = first;
             mesh.triangles[other] = second;
