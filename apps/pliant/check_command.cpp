@@ -72,20 +72,17 @@ int check_mesh(const CheckOptions& options)
         throw Error(ErrorKind::bad_usage,
                     "--out " + options.out_file + " is the mesh that is read; give another name");
     SurfaceMesh mesh = read_mesh(in);
-    std::printf("%s\n%s", options.scene_or_mesh.c_str(), describe(inspect_mesh(mesh)).c_str());
-    if (!options.repair) {
-        preview_repair(mesh);
-        return 0;
+    std::string text = options.scene_or_mesh + "\n" + describe(inspect_mesh(mesh));
+    if (options.repair) {
+        const std::string lines = describe(repair_mesh(mesh, options.repair_options));
+        text += lines.empty() ? "\nnothing to repair\n"
+                              : "\nrepaired:\n" + lines + "\n" + describe(inspect_mesh(mesh));
+        if (!out.empty()) write_mesh(out, mesh);  // before anything is printed: it may fail
+        text += out.empty() ? "nothing was written; --out FIXED.ply keeps the mended mesh\n"
+                            : "written: " + options.out_file + "\n";
     }
-    const std::string lines = describe(repair_mesh(mesh, options.repair_options));
-    std::printf("\n%s\n%s", lines.empty() ? "nothing to repair" : "repaired:", lines.c_str());
-    if (!lines.empty()) std::printf("\n%s", describe(inspect_mesh(mesh)).c_str());
-    if (out.empty()) {
-        std::printf("nothing was written; --out FIXED.ply keeps the mended mesh\n");
-    } else {
-        write_mesh(out, mesh);
-        std::printf("written: %s\n", options.out_file.c_str());
-    }
+    std::fputs(text.c_str(), stdout);
+    if (!options.repair) preview_repair(mesh);
     return 0;
 }
 

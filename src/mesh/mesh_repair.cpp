@@ -114,7 +114,8 @@ void clean(SurfaceMesh& mesh, double weld_tolerance, RepairReport& report)
     constexpr int most_passes = 10;  // each ends the flat triangles that do not touch another one
     for (int pass = 0; pass < most_passes && end_flat_triangles(cleaned, done); ++pass) {
     }
-    if (cleaned.triangles.empty() || (is_closed(mesh) && !is_closed(cleaned))) return;
+    if (describe(done).empty() || cleaned.triangles.empty() || (is_closed(mesh) && !is_closed(cleaned)))
+        return;
     mesh = std::move(cleaned);
     report = done;
 }
@@ -144,7 +145,7 @@ RepairReport repair_mesh(SurfaceMesh& mesh, const RepairOptions& options)
         if (filling.holes > 0) turn_triangles(mesh, plan_orientation(mesh, edge_uses(mesh)).turn);
     }
     for (std::size_t t = 0; t < before.size(); ++t) report.turned_triangles += mesh.triangles[t] != before[t];
-    report.open_loops = inspect_mesh(mesh).boundary_loops;
+    report.open_loops = boundary_loops(mesh, edge_uses(mesh)).size();
     return report;
 }
 
