@@ -1,4 +1,4 @@
-// Triangle meshes: read, write, inspect.
+// Triangle meshes: read, write, inspect, repair.
 #pragma once
 
 #include <array>
