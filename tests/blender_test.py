@@ -104,7 +104,7 @@ def main():
             report = run(tool, "check", file, folder=folder)
             expected.append(float(re.search(r"volume: (\S+) m\^3", report)[1]))
         (folder / "look.py").write_text(IN_BLENDER)
-        out = run(blender, "--background", "--factory-startup", "--python-exit-code", "1", "--python", "look.py", "--",
+        out = run(blender, "--background", "--factory-startup", "--python-exit-code", "1", "--python", folder / "look.py", "--",
                   first, target / "egg.pc2", last, str(FRAMES), folder=folder)
         found = [float(word) for word in re.search(r"^VOLUMES (.*)$", out, re.MULTILINE)[1].split()]
     # The springs alone do not keep the volume: the cache shows another one than the mesh it is put on.

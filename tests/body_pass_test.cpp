@@ -1,5 +1,6 @@
-// The passes of soft bodies on every backend, on odd sizes: cpu (each instruction set of this machine, 1, 2, 3 and 7
-// threads) and vulkan must agree bit by bit, and both must follow the double-precision reference to rounding.
+// The passes of soft bodies on every backend, on odd sizes: cpu (each instruction set of this machine, 1, 2,
+// 3 and 7 threads) and vulkan must agree bit by bit, and both must follow the double-precision reference to
+// rounding.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -29,8 +30,16 @@ void PrintTo(const BodyCase& c, std::ostream* out) { *out << c.name; }
 // Numbers of nodes around packs, slices of 16 and blocks of 256, and of more than 256 blocks.
 const BodyCase cases[] = {
     {"tetrahedron_4", [] { return icosphere_mesh({.radius = 0.4, .frequency = 1}); }, false},
-    {"box_8", [] { return box_mesh({.size = {0.8, 0.6, 0.7}, .faces = 1}); }, false},
-    {"box_26_rich", [] { return box_mesh({.size = {0.8, 0.6, 0.7}, .faces = 2}); }, true},
+    {"box_8",
+     [] {
+         return box_mesh({.size = {0.8, 0.6, 0.7}, .faces = 1});
+     },
+     false},
+    {"box_26_rich",
+     [] {
+         return box_mesh({.size = {0.8, 0.6, 0.7}, .faces = 2});
+     },
+     true},
     {"sphere_42", [] { return icosphere_mesh({.radius = 0.4, .frequency = 2}); }, false},
     {"sphere_252_rich", [] { return icosphere_mesh({.radius = 0.4, .frequency = 5}); }, true},
     {"torus_289", [] { return torus_mesh({.major_segments = 17, .minor_segments = 17}); }, false},
@@ -38,7 +47,8 @@ const BodyCase cases[] = {
     {"blob_1000", [] { return blob_mesh({.vertices = 1000}); }, true},
     {"uv_sphere_70000", [] { return uv_sphere_mesh({.radius = 0.5, .rings = 200, .segments = 352}); }, false},
     {"springs_alone", [] { return icosphere_mesh({.radius = 0.4, .frequency = 5}); }, false, false},
-    {"springs_alone_rich", [] { return torus_mesh({.major_segments = 17, .minor_segments = 17}); }, true, false},
+    {"springs_alone_rich", [] { return torus_mesh({.major_segments = 17, .minor_segments = 17}); }, true,
+     false},
     {"springs_by_list", [] { return icosphere_mesh({.radius = 0.4, .frequency = 6}); }, false, false, true},
 };
 
@@ -89,7 +99,8 @@ Results results_of(PassRunner& runner, const ClothModel& model, const Scene& sce
     constexpr std::uint32_t steps = 2;
     program.parity_after = append_frame({&model, 1}, steps, 0, program.calls);
     std::vector<PlacedCollider> colliders;
-    for (const Collider& collider : scene.colliders) colliders.push_back(seen_from(placed_at(collider, 0), {}));
+    for (const Collider& collider : scene.colliders)
+        colliders.push_back(seen_from(placed_at(collider, 0), {}));
     std::vector<std::vector<Vec3>> attached(1);
     std::vector<std::vector<VolumeGoal>> goals(1);
     for (std::uint32_t s = 1; s <= steps; ++s) {
@@ -144,10 +155,12 @@ TEST_P(BodyPassParity, AllBackendsAgree)
             expect_same_bits(expected, results_of(*make_cpu_runner({&model, 1}, options), model, scene),
                              std::string(kernels->name) + ", threads " + std::to_string(threads));
         }
-    expect_same_bits(expected, results_of(*test::make_runner(Backend::vulkan, model), model, scene), "vulkan");
+    expect_same_bits(expected, results_of(*test::make_runner(Backend::vulkan, model), model, scene),
+                     "vulkan");
 
-    // Against the reference: forces of up to 40 springs of 1,000 N/m, each off by its stiffness times the rounding of
-    // positions of up to 1 m, on the lightest node, for two steps; and as much again for everything else.
+    // Against the reference: forces of up to 40 springs of 1,000 N/m, each off by its stiffness times the
+    // rounding of positions of up to 1 m, on the lightest node, for two steps; and as much again for
+    // everything else.
     const Results exact = results_of(*make_reference_runner({&model, 1}), model, scene);
     const double rounding = 0x1p-24;
     double least_mass = 1e30;
@@ -156,7 +169,8 @@ TEST_P(BodyPassParity, AllBackendsAgree)
     const auto expect_near = [&](Resource resource, double tolerance) {
         double worst = 0;
         for (std::size_t i = 0; i < exact.at(resource).size(); ++i)
-            worst = std::max(worst, std::abs(double{expected.at(resource)[i]} - double{exact.at(resource)[i]}));
+            worst =
+                std::max(worst, std::abs(double{expected.at(resource)[i]} - double{exact.at(resource)[i]}));
         EXPECT_LE(worst, tolerance) << "resource " << static_cast<int>(resource);
     };
     // The correction turns the rounding of positions, over a step, into velocity.
@@ -190,7 +204,8 @@ TEST(BodyFormulations, GatheringAndTheSpringListGiveTheSameBits)
 {
     Results results[2];
     for (const bool list : {false, true}) {
-        const Scene scene = scene_of({"", [] { return icosphere_mesh({.radius = 0.4, .frequency = 6}); }, false, false, list});
+        const Scene scene = scene_of(
+            {"", [] { return icosphere_mesh({.radius = 0.4, .frequency = 6}); }, false, false, list});
         const ClothModel model = shaken_model(scene);
         results[list] = results_of(*make_cpu_runner({&model, 1}, {}), model, scene);
     }

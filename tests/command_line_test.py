@@ -604,10 +604,13 @@ def check_tells_what_repair_would_do_and_repair_does_it(folder):
         stl += struct.pack("<12fH", 0, 0, 0, *[x for corner in side for x in corners[corner]], 0)
     (folder / "cut.stl").write_bytes(stl)
     preview = call(folder, "check cut.stl").expect(0).out
-    expect_words(preview, ["4 vertices", "3 boundary edges", "1 boundary loop\n", "of 3 edges, 3.41421 m long, at vertex",
-                           "--repair would change nothing", "with --fill-holes as well", "holes filled: 1"])
+    expect_words(preview, ["4 vertices", "3 boundary edges", "1 boundary loop\n",
+                           "of 3 edges, 3.41421 m long, at vertex", "--repair would change nothing",
+                           "--fill-holes would do this as well, after which it is closed",
+                           "volume of 0.166667 m^3", "holes filled: 1"])
     expect(not list(folder.glob("*.ply")), "check writes files")
-    expect_words(call(folder, "check cut.stl --repair --fill-holes").expect(0).out, ["nothing was written", "--out"])
+    unkept = call(folder, "check cut.stl --repair --fill-holes").expect(0).out
+    expect_words(unkept, ["nothing was written", "--out"])
     done = call(folder, "check cut.stl --repair --fill-holes --out whole.ply").expect(0).out
     expect_words(done, ["repaired:", "holes filled: 1", "triangles added: 1", "written: whole.ply"])
     expect_words(call(folder, "check whole.ply").expect(0).out,

@@ -1,6 +1,7 @@
 // Meshes are inspected. The collection of bad files is read where it exists beside the repository.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -10,6 +11,7 @@
 #include <numbers>
 
 #include "mesh/disc.hpp"
+#include "pliant/mesh_generators.hpp"
 #include "test_meshes.hpp"
 
 namespace pliant {
@@ -150,11 +152,53 @@ TEST(MeshInspection, moebius_strip_cannot_be_oriented)
 {
     const MeshReport report = inspect_mesh(moebius_strip(24));
     EXPECT_FALSE(report.oriented);
+    EXPECT_FALSE(report.orientable);
     EXPECT_FALSE(report.closed);
     EXPECT_EQ(report.boundary_edges, 48u);
     EXPECT_EQ(report.boundary_loops, 1u);
     EXPECT_EQ(report.euler_characteristic, 0);
     EXPECT_EQ(report.non_manifold_edges + report.non_manifold_vertices, 0u);
+}
+
+TEST(MeshInspection, genus_is_the_number_of_handles)
+{
+    SurfaceMesh mesh = torus_mesh({0.5, 0.2, 12, 8});
+    EXPECT_EQ(inspect_mesh(mesh).genus, 1);
+    const auto count = static_cast<std::uint32_t>(mesh.vertices.size());
+    const SurfaceMesh one = mesh, ball = icosphere_mesh({0.1, 2});
+    for (const Vec3 v : one.vertices) mesh.vertices.push_back({v.x + 3, v.y, v.z});
+    for (const Triangle& t : one.triangles)
+        mesh.triangles.push_back({t[0] + count, t[1] + count, t[2] + count});
+    for (const Vec3 v : ball.vertices) mesh.vertices.push_back(v);
+    for (const Triangle& t : ball.triangles)
+        mesh.triangles.push_back({t[0] + 2 * count, t[1] + 2 * count, t[2] + 2 * count});
+    const MeshReport report = inspect_mesh(mesh);
+    EXPECT_EQ(report.components, 3u);
+    EXPECT_EQ(report.euler_characteristic, 2);
+    EXPECT_EQ(report.genus, 2);
+    EXPECT_EQ(report.inward_components, 0u);
+}
+
+TEST(MeshInspection, loops_have_a_place_and_a_length)
+{
+    SurfaceMesh mesh = box_mesh({{2, 2, 2}, 4});
+    // Two neighbouring triangles, of a square 0.5 m wide, and one elsewhere.
+    const Triangle far = mesh.triangles.back();
+    mesh.triangles.erase(mesh.triangles.begin(), mesh.triangles.begin() + 2);
+    mesh.triangles.pop_back();
+    const MeshReport report = inspect_mesh(mesh);
+    ASSERT_EQ(report.loops.size(), 2u);
+    EXPECT_EQ(report.boundary_loops, 2u);
+    EXPECT_EQ(report.loops[0].edges, 4u);
+    EXPECT_DOUBLE_EQ(report.loops[0].length, 2);
+    EXPECT_EQ(report.loops[0].vertex, 0u);
+    EXPECT_EQ(report.loops[0].position, to_double(mesh.vertices[0]));
+    EXPECT_EQ(report.loops[1].edges, 3u);
+    EXPECT_DOUBLE_EQ(report.loops[1].length, 1 + std::sqrt(0.5));
+    EXPECT_EQ(report.loops[1].vertex, std::min({far[0], far[1], far[2]}));
+    EXPECT_NE(describe(report).find("2 boundary loops\n  of 4 edges, 2 m long, at vertex 0 (-1, -1, -1) m\n"),
+              std::string::npos)
+        << describe(report);
 }
 
 TEST(MeshInspection, inside_out_volume_is_negative)

@@ -1,11 +1,8 @@
-// Meshes are repaired, and refused as bodies with volume with words that help.
+// Meshes are repaired.
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <random>
 
 #include "pliant/mesh_generators.hpp"
@@ -14,32 +11,10 @@
 namespace pliant {
 namespace {
 
-namespace fs = std::filesystem;
-
 using test::failure_of;
+using test::soup_of;
 using test::tetrahedron;
-
-/// Each triangle with three vertices of its own, as STL has them, moved by up to `jitter` (m).
-SurfaceMesh soup_of(const SurfaceMesh& mesh, float jitter = 0)
-{
-    std::mt19937 random(7);
-    std::uniform_real_distribution<float> offset(-jitter, jitter);
-    SurfaceMesh soup;
-    for (const Triangle& t : mesh.triangles) {
-        const auto first = static_cast<std::uint32_t>(soup.vertices.size());
-        for (const std::uint32_t vertex : t) {
-            const Vec3 v = mesh.vertices[vertex];
-            soup.vertices.push_back({v.x + offset(random), v.y + offset(random), v.z + offset(random)});
-        }
-        soup.triangles.push_back({first, first + 1, first + 2});
-    }
-    return soup;
-}
-
-void turn_round(SurfaceMesh& mesh)
-{
-    for (Triangle& triangle : mesh.triangles) std::swap(triangle[0], triangle[1]);
-}
+using test::turn_round;
 
 void append(SurfaceMesh& mesh, const SurfaceMesh& other, Vec3 offset = {})
 {
@@ -295,132 +270,6 @@ TEST(MeshRepair, bad_tolerances_are_refused)
     EXPECT_NE(failure_of([&] { repair_mesh(mesh); }).find("vertex 7"), std::string::npos);
     SurfaceMesh nothing;
     EXPECT_EQ(describe(repair_mesh(nothing, {.fill_holes = true})), "");
-}
-
-// ---- what a body with volume asks
-
-std::string refusal_of(const SurfaceMesh& mesh)
-{
-    return failure_of([&] { require_closed(mesh, "shape.ply"); });
-}
-
-TEST(RequireClosed, says_where_the_hole_is_and_what_to_do)
-{
-    SurfaceMesh mesh = box_mesh({{2, 2, 2}, 2});
-    EXPECT_EQ(refusal_of(mesh), "no failure");
-    mesh.triangles.pop_back();
-    const std::string message = refusal_of(mesh);
-    EXPECT_TRUE(
-        message.starts_with("'shape.ply' cannot be a body with volume: it is not closed: 3 edges in 1 "
-                            "boundary loop, the longest of 3 edges and 3.41421 m at vertex "))
-        << message;
-    EXPECT_TRUE(
-        message.ends_with(" m; mend it by 'pliant check shape.ply --repair --fill-holes --out FIXED.ply'"))
-        << message;
-    mesh.file = "folder/shape.ply";
-    EXPECT_NE(refusal_of(mesh).find("check folder/shape.ply --repair"), std::string::npos);
-}
-
-TEST(RequireClosed, names_the_lightest_repair)
-{
-    const SurfaceMesh sphere = icosphere_mesh({1, 4});  // its shortest edge is 0.276 m
-    EXPECT_NE(refusal_of(soup_of(sphere)).find("--repair --out"), std::string::npos);
-    EXPECT_NE(refusal_of(soup_of(sphere, 1e-4f)).find("--repair --weld 0.01 --out"), std::string::npos);
-    SurfaceMesh strip = sheet_mesh();
-    EXPECT_NE(refusal_of(strip).find("do it in a modeller"), std::string::npos);
-}
-
-TEST(RequireClosed, refuses_everything_else_that_has_no_volume)
-{
-    EXPECT_NE(refusal_of({{{0, 0, 0}}, {}}).find("it has no triangles; use a closed mesh"),
-              std::string::npos);
-    SurfaceMesh mesh = tetrahedron();
-    turn_round(mesh);
-    EXPECT_NE(refusal_of(mesh).find("1 component is inside out (volume -0.166667 m^3); mend it by"),
-              std::string::npos);
-    std::swap(mesh.triangles[2][0], mesh.triangles[2][1]);
-    EXPECT_NE(
-        refusal_of(mesh).find("do not agree on the side that is outside, first at an edge of vertex 1 at"),
-        std::string::npos);
-    mesh = tetrahedron();
-    mesh.vertices.push_back({5, 5, 5});
-    EXPECT_NE(refusal_of(mesh).find("1 vertex belongs to no triangle; mend it by"), std::string::npos);
-    mesh = box_mesh({{1, 1, 1}, 2});
-    for (Vec3& v : mesh.vertices) v.z *= 1e-7f;
-    EXPECT_NE(refusal_of(mesh).find("encloses no volume"), std::string::npos);
-    mesh = tetrahedron();
-    mesh.vertices.push_back({0.5f, -1, -1});
-    mesh.triangles.push_back({0, 1, 4});
-    mesh.triangles.push_back({1, 0, 4});
-    EXPECT_NE(refusal_of(mesh).find("1 edge has three or more triangles, first that between vertex 0 at"),
-              std::string::npos);
-    mesh = tetrahedron();
-    for (const Vec3 v : {Vec3{-1, 0, 0}, Vec3{0, -1, 0}, Vec3{0, 0, -1}}) mesh.vertices.push_back(v);
-    for (const Triangle t : {Triangle{0, 4, 5}, {0, 6, 4}, {4, 6, 5}, {0, 5, 6}}) mesh.triangles.push_back(t);
-    EXPECT_NE(refusal_of(mesh).find("parts of it touch in 1 vertex, first vertex 0 at (0, 0, 0) m"),
-              std::string::npos);
-    mesh = tetrahedron();
-    mesh.vertices.push_back(mesh.vertices[3]);  // an edge of no length: 3-4
-    mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 4}, {0, 3, 4}, {3, 2, 4}};
-    ASSERT_TRUE(inspect_mesh(mesh).closed);
-    EXPECT_NE(refusal_of(mesh).find("it has an edge without length; mend it by"), std::string::npos);
-}
-
-// ---- the collection beside the repository
-
-TEST(SharedMeshes, repair_makes_of_bad_files_what_the_manifest_says)
-{
-    const fs::path bad = fs::path(PLIANT_SHARED_DIR) / "meshes" / "bad";
-    if (!fs::exists(bad / "manifest.json")) GTEST_SKIP() << "no collection of bad meshes at " << bad;
-    const auto manifest = nlohmann::json::parse(std::ifstream(bad / "manifest.json"));
-    std::size_t bodies = 0, mended_bodies = 0;
-    for (const auto& entry : manifest.at("files")) {
-        const std::string name = entry.at("file"), parse = entry.at("parse");
-        if (parse == "error") continue;
-        SCOPED_TRACE(name + ": " + entry.at("what").get<std::string>());
-        SurfaceMesh mesh;
-        try {
-            mesh = read_mesh(bad / name);
-        } catch (const Error& error) {
-            EXPECT_EQ(parse, "ok_or_error") << error.what();
-            continue;
-        }
-        const bool is_body = failure_of([&] { require_closed(mesh, name); }) == "no failure";
-        if (!entry.value("closed", true) || entry.value("volume_sign", 1) < 1) EXPECT_FALSE(is_body);
-        if (entry.value("valid", false)) EXPECT_TRUE(is_body);
-        bodies += is_body;
-
-        const MeshReport before = inspect_mesh(mesh);
-        repair_mesh(mesh, {.weld_tolerance = entry.value("weld_tolerance", 0.0)});
-        const MeshReport after = inspect_mesh(mesh);
-        mended_bodies += failure_of([&] { require_closed(mesh, name); }) == "no failure";
-        if (entry.contains("weld_to")) EXPECT_EQ(after.vertices, entry.at("weld_to").get<std::size_t>());
-        const bool can_close = before.closed || entry.contains("weld_to") || before.duplicate_triangles > 0 ||
-                               entry.value("closed_after_dropping", false);
-        EXPECT_EQ(after.closed, can_close);
-        EXPECT_EQ(after.inward_components, 0u);
-        EXPECT_EQ(after.oriented, before.triangles > 0 && name != "moebius.ply");
-        EXPECT_EQ(after.isolated_vertices, after.triangles > 0 ? 0 : after.vertices);
-        if (before.closed && before.oriented)
-            EXPECT_NEAR(after.volume, std::abs(before.volume), 1e-6 * after.volume);
-    }
-    EXPECT_GE(bodies, 25u);
-    EXPECT_GE(mended_bodies,
-              bodies + 8);  // soup, jitter, inside out, mixed, duplicate, degenerate, unused, length 0
-}
-
-TEST(SharedMeshes, the_scanned_rabbit_is_closed)
-{
-    const fs::path file = fs::path(PLIANT_SHARED_DIR) / "meshes" / "bad" / "real_bunny_raw_holes.ply";
-    if (!fs::exists(file)) GTEST_SKIP() << "no mesh at " << file;
-    SurfaceMesh mesh = read_mesh(file);
-    ASSERT_EQ(inspect_mesh(mesh).boundary_loops, 5u);
-    const RepairReport report = repair_mesh(mesh, {.fill_holes = true});
-    EXPECT_EQ(report.isolated_vertices, 1113u);
-    EXPECT_EQ(report.filled_holes, 5u);
-    EXPECT_EQ(report.added_triangles, 223u - 2 * 5);  // n corners take n - 2 triangles
-    EXPECT_NO_THROW(require_closed(mesh, "bunny"));
-    EXPECT_EQ(inspect_mesh(mesh).genus, 0);
 }
 
 }  // namespace

@@ -139,6 +139,7 @@ public:
         nested("mesh", [&](auto& inside) {
             inside.mesh_file("file", SurfaceMesh{});
             inside.number("scale", cloth.scale, scene_format::extent, "");
+            inside.text("weights", "");
         });
         object("icosphere", IcosphereOptions{});
         object("uv_sphere", UvSphereOptions{});

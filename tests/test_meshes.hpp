@@ -1,4 +1,4 @@
-// What the tests of meshes share: a folder for their files, and a mesh.
+// What the tests of meshes share: a folder for their files, and meshes.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -9,6 +9,7 @@
 #include <iterator>
 #include <random>
 #include <string>
+#include <utility>
 
 #include "pliant/error.hpp"
 #include "pliant/mesh.hpp"
@@ -67,6 +68,29 @@ protected:
 inline SurfaceMesh tetrahedron()
 {
     return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+}
+
+/// Each triangle with three vertices of its own, as STL has them, moved by up to `jitter` (m).
+inline SurfaceMesh soup_of(const SurfaceMesh& mesh, float jitter = 0)
+{
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> offset(-jitter, jitter);
+    SurfaceMesh soup;
+    for (const Triangle& t : mesh.triangles) {
+        const auto first = static_cast<std::uint32_t>(soup.vertices.size());
+        for (const std::uint32_t vertex : t) {
+            const Vec3 v = mesh.vertices[vertex];
+            soup.vertices.push_back({v.x + offset(random), v.y + offset(random), v.z + offset(random)});
+        }
+        soup.triangles.push_back({first, first + 1, first + 2});
+    }
+    return soup;
+}
+
+/// Inside out.
+inline void turn_round(SurfaceMesh& mesh)
+{
+    for (Triangle& triangle : mesh.triangles) std::swap(triangle[0], triangle[1]);
 }
 
 }  // namespace pliant::test

@@ -1,9 +1,10 @@
-// Soft bodies against what is known of them: the gradient against finite differences, what must not change, and the
-// bars of the volume that is kept.
+// Soft bodies against what is known of them: the gradient against finite differences, what must not change,
+// and the bars of the volume that is kept.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <random>
 #include <string>
@@ -35,7 +36,8 @@ std::vector<Vec3d> doubles(std::span<const Vec3> values)
 
 Cloth ball(std::uint32_t frequency = 8, const BodyOptions& options = {})
 {
-    Cloth cloth = Cloth::soft_body(icosphere_mesh({.radius = 0.5, .frequency = frequency}), options, {.node_mass = 1});
+    Cloth cloth =
+        Cloth::soft_body(icosphere_mesh({.radius = 0.5, .frequency = frequency}), options, {.node_mass = 1});
     cloth.springs.structural = {5000, 200};
     cloth.damping = 0;
     return cloth;
@@ -93,7 +95,8 @@ std::uint32_t run_steps(PassRunner& runner, const ClothModel& model, std::uint32
     return program.parity_after;
 }
 
-// --- the gradient ---------------------------------------------------------------------------------------------------------
+// --- the gradient
+// ---------------------------------------------------------------------------------------------------------
 
 TEST(VolumeGradient, MatchesFiniteDifferencesAndPushesAndTurnsNothing)
 {
@@ -107,7 +110,8 @@ TEST(VolumeGradient, MatchesFiniteDifferencesAndPushesAndTurnsNothing)
         runner->read(0, Resource::gradient, 0, g);
 
         std::vector<Vec3d> x = doubles(model.positions);
-        // 6 V is linear in each coordinate, so that a difference over 0.1 m is exact but for rounding of 1e-16 of 6 V.
+        // 6 V is linear in each coordinate, so that a difference over 0.1 m is exact but for rounding of
+        // 1e-16 of 6 V.
         constexpr double h = 0.05;
         double largest = 0;
         for (const float a : g) largest = std::max(largest, std::abs(double{a}));
@@ -157,7 +161,7 @@ TEST(VolumeGradient, AsPrintedIsNeitherAGradientNorFreeOfThrust)
     const double volume = sixfold(x, mesh.triangles) / 6;
     EXPECT_NEAR(along, 3 * volume, 1e-12);
     EXPECT_LE(size_of(sum), 1e-12);
-    EXPECT_LT(along_printed, -volume);     // it points inward
+    EXPECT_LT(along_printed, -volume);      // it points inward
     EXPECT_GT(size_of(sum_printed), 1e-3);  // m2: it pushes the body as a whole
 }
 
@@ -177,7 +181,8 @@ TEST(Volume, DoesNotChangeWhenABodyIsMovedAndTurned)
     }
 }
 
-// --- what the constraint must not change --------------------------------------------------------------------------------------
+// --- what the constraint must not change
+// --------------------------------------------------------------------------------------
 
 TEST(VolumeMomentum, AFreeBodyKeepsItsMomenta)
 {
@@ -191,21 +196,23 @@ TEST(VolumeMomentum, AFreeBodyKeepsItsMomenta)
             const auto runner = test::make_runner(backend, model);
             const Momenta before = momenta_of(*runner, model, 0);
             const Momenta after = momenta_of(*runner, model, run_steps(*runner, model, steps, 1e-4));
-            // A step rounds a velocity by 2^-24 of it, and the correction by that of the positions over dt; roundings are
-            // independent of each other, so that they grow with the root of their number. In double only reading back
-            // rounds, by 2^-24 of each number, once.
+            // A step rounds a velocity by 2^-24 of it, and the correction by that of the positions over dt;
+            // roundings are independent of each other, so that they grow with the root of their number. In
+            // double only reading back rounds, by 2^-24 of each number, once.
             const double rounding = backend == Backend::reference ? 4 * 0x1p-24 : 64 * 0x1p-24;
-            EXPECT_LE(size_of(after.linear - before.linear) / before.scale, rounding) << name_of(backend) << weighted;
+            EXPECT_LE(size_of(after.linear - before.linear) / before.scale, rounding)
+                << name_of(backend) << weighted;
             if (!weighted) {  // weights take the thrust off, and not the torque
-                EXPECT_LE(size_of(after.angular - before.angular) / before.scale, rounding) << name_of(backend);
+                EXPECT_LE(size_of(after.angular - before.angular) / before.scale, rounding)
+                    << name_of(backend);
             }
         }
 }
 
 TEST(VolumeEnergy, IsNotPumpedIntoAFreeBody)
 {
-    // Without damping, oscillating for 4,000 steps: kinetic and elastic energy stay what they were to the order of the
-    // integrator, whose energy error is of the order omega dt = 0.02.
+    // Without damping, oscillating for 4,000 steps: kinetic and elastic energy stay what they were to the
+    // order of the integrator, whose energy error is of the order omega dt = 0.02.
     Cloth body = ball(6);
     body.springs.structural = {5000, 0};
     const Scene scene = free_scene(body);
@@ -243,7 +250,8 @@ TEST(VolumePlace, AKilometreAwayABodyBehavesAsAtTheOrigin)
         velocities[far].assign(v.begin(), v.end());
         EXPECT_LE(simulation.report().volume.error_max, 1e-6);
     }
-    // The same coordinates against the body's own origin, but for the sphere's, which 1000.4 - 1000 rounds in double.
+    // The same coordinates against the body's own origin, but for the sphere's, which 1000.4 - 1000 rounds in
+    // double.
     double apart = 0, fastest = 0;
     for (std::size_t i = 0; i < velocities[0].size(); ++i) {
         apart = std::max(apart, size_of(to_double(velocities[0][i]) - to_double(velocities[1][i])));
@@ -252,9 +260,11 @@ TEST(VolumePlace, AKilometreAwayABodyBehavesAsAtTheOrigin)
     EXPECT_LE(apart, 1e-3 * fastest);
 }
 
-// --- the bars -------------------------------------------------------------------------------------------------------------
+// --- the bars
+// -------------------------------------------------------------------------------------------------------------
 
-/// A body that comes down on a plane at 2 m/s from 1 cm above it, one step in a frame: after 50 of 400 frames it hits.
+/// A body that comes down on a plane at 2 m/s from 1 cm above it, one step in a frame: after 50 of 400 frames
+/// it hits.
 Scene impact(Cloth body, double dt = 1e-4)
 {
     const Scene probe = free_scene(body);
@@ -286,7 +296,8 @@ constexpr double bar = 1e-4;  // 0.01 %
 
 TEST(VolumeBar, FreeFallOfSphereAndTorus)
 {
-    Cloth torus = Cloth::soft_body(torus_mesh({.major_segments = 36, .minor_segments = 18}), {}, {.node_mass = 1});
+    Cloth torus =
+        Cloth::soft_body(torus_mesh({.major_segments = 36, .minor_segments = 18}), {}, {.node_mass = 1});
     torus.springs.structural = {5000, 200};
     for (const Cloth& body : {ball(16), torus}) {
         EXPECT_LE(fall(impact(body), Backend::cpu, 400).error_max, bar);
@@ -357,7 +368,8 @@ TEST(VolumeBits, AreTheSameOnCpuAndVulkan)
     EXPECT_EQ(hashes[0], hashes[1]);
 }
 
-// --- what is asked for ------------------------------------------------------------------------------------------------------
+// --- what is asked for
+// ------------------------------------------------------------------------------------------------------
 
 TEST(VolumeTarget, IsFollowedOverTime)
 {
@@ -384,7 +396,8 @@ TEST(VolumePressure, PushesEveryNodeOutwardByItsShareOfTheArea)
     Simulation simulation(scene, test::on(Backend::cpu));
     const std::vector<Vec3> x(simulation.positions().begin(), simulation.positions().end());
     simulation.advance(1e-3);
-    // 100 Pa on the 3.14 m2 of a sphere (its mesh: 1.1 % less), on 642 nodes of 1 kg, for 1 ms: in sum 0.3108 N s outward.
+    // 100 Pa on the 3.14 m2 of a sphere (its mesh: 1.1 % less), on 642 nodes of 1 kg, for 1 ms: in sum 0.3108
+    // N s outward.
     double outward = 0;
     Vec3d sum{};
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -397,7 +410,8 @@ TEST(VolumePressure, PushesEveryNodeOutwardByItsShareOfTheArea)
         const Vec3d a = to_double(x[t[0]]);
         area += 0.5 * size_of(cross(to_double(x[t[1]]) - a, to_double(x[t[2]]) - a));
     }
-    EXPECT_NEAR(outward, 100 * area * 1e-3, 0.01 * outward);  // nodes' normals lean from the radius by a few degrees
+    EXPECT_NEAR(outward, 100 * area * 1e-3,
+                0.01 * outward);  // nodes' normals lean from the radius by a few degrees
     EXPECT_LE(size_of(sum), 1e-6);
 }
 
@@ -438,7 +452,8 @@ TEST(VolumeContact, TheCorrectionDoesNotPushNodesIntoThePlate)
         simulation.advance(1 / scene.time.frame_rate);
         deepest = std::max(deepest, simulation.report().measures.max_penetration);
     }
-    // A node that comes near in a step and is moved by that step's correction may enter by that much: 10 um at 1e-4 s.
+    // A node that comes near in a step and is moved by that step's correction may enter by that much: 10 um
+    // at 1e-4 s.
     EXPECT_LE(deepest, 1e-4);
     EXPECT_LE(simulation.report().volume.error_max, bar);
 }
@@ -458,11 +473,84 @@ TEST(VolumeBodies, AreGivenInTheOrderOfTheirMeshes)
     EXPECT_EQ(simulation.body_count(), 1u);
 }
 
+TEST(VolumeWeights, ComeFromAPropertyOfTheVertices)
+{
+    const fs::path folder = fs::path(testing::TempDir()) / "pliant_volume_weights";
+    fs::create_directory(folder);
+    const SurfaceMesh mesh = icosphere_mesh({.radius = 0.5, .frequency = 3});
+    std::ofstream ply(folder / "ball.ply");
+    ply << "ply\nformat ascii 1.0\nelement vertex " << mesh.vertices.size()
+        << "\nproperty float x\nproperty float y\nproperty float z\nproperty float give\nelement face "
+        << mesh.triangles.size() << "\nproperty list uchar int vertex_indices\nend_header\n";
+    for (const Vec3& v : mesh.vertices)
+        ply << v.x << ' ' << v.y << ' ' << v.z << ' ' << (v.y > 0 ? 1 : 0) << '\n';
+    for (const Triangle& t : mesh.triangles) ply << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
+    ply.close();
+    std::ofstream(folder / "scene.json") << R"({"pliant": 1, "method": "volume", "gravity": [0, 0, 0],
+        "time": {"dt": 1e-3, "substeps": 1},
+        "bodies": [{"mesh": {"file": "ball.ply", "weights": "give"}, "node_mass": 1, "damping": 0,
+                    "springs": {"stiffness": 0, "damping": 0}, "volume": {"target": [{"time": 0, "value": 1.1}]}}]})";
+    const Scene scene = read_scene((folder / "scene.json").string());
+    Simulation simulation(scene, test::on(Backend::cpu));
+    simulation.advance(1e-3);
+    EXPECT_NEAR(simulation.report().bodies.at(0).ratio, 1.1, 1e-5);
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+        const double speed = size_of(to_double(simulation.velocities()[i]));
+        if (mesh.vertices[i].y > 0)
+            EXPECT_GT(speed, 0) << i;
+        else
+            EXPECT_EQ(speed, 0) << i;
+    }
+    EXPECT_ERROR(read_scene((folder / "scene.json").string(), {"bodies[0].mesh.weights=take"}), bad_input,
+                 "take");
+    fs::remove_all(folder);
+}
+
+TEST(VolumeBodies, ManyOfOneMaterialAreSteppedTogetherAsEachWouldBeAlone)
+{
+    // Bit by bit where they share the first one's origin; here each is a metre from it, so that rounding
+    // differs.
+    Scene together = free_scene(ball(4));
+    together.gravity = {0, -9.81, 0};
+    together.add(Plane{});
+    together.cloth_handle(0)->position = {0, 0.51, 0};
+    Cloth second = ball(5), third = ball(3);
+    second.position = {2, 0.53, 0};
+    second.velocity = {0, -1, 0};
+    third.position = {0, 0.6, 3};
+    third.springs.structural.stiffness = 4000;  // another material
+    together.add(second);
+    together.add(third);
+    Simulation all(together, test::on(Backend::cpu));
+    for (int frame = 0; frame < 60; ++frame) all.advance(1e-3);
+    ASSERT_EQ(all.report().bodies.size(), 3u);
+    EXPECT_LE(all.report().volume.error_max, bar);
+    for (std::size_t c = 0; c < 3; ++c) {
+        Scene alone = free_scene(together.cloth(c));
+        alone.gravity = {0, -9.81, 0};
+        alone.add(Plane{});
+        Simulation one(alone, test::on(Backend::cpu));
+        for (int frame = 0; frame < 60; ++frame) one.advance(1e-3);
+        ASSERT_EQ(all.positions(c).size(), one.positions().size());
+        for (std::size_t i = 0; i < one.positions().size(); ++i)
+            EXPECT_LE(size_of(to_double(all.positions(c)[i]) - to_double(one.positions()[i])), 2e-5)
+                << c << ' ' << i;
+    }
+    std::uint64_t hashes[2];
+    for (const bool vulkan : {false, true}) {
+        Simulation simulation(together, test::on(vulkan ? Backend::vulkan : Backend::cpu));
+        for (int frame = 0; frame < 5; ++frame) simulation.advance(1e-3);
+        hashes[vulkan] = simulation.state_hash();
+    }
+    EXPECT_EQ(hashes[0], hashes[1]);
+}
+
 TEST(VolumeBodies, AnOpenMeshIsRefused)
 {
     SurfaceMesh open = icosphere_mesh({.radius = 0.5, .frequency = 3});
     open.triangles.pop_back();
-    EXPECT_ERROR(Simulation simulation(free_scene(Cloth::soft_body(open))), bad_input, "cannot be a body with volume");
+    EXPECT_ERROR(Simulation simulation(free_scene(Cloth::soft_body(open))), bad_input,
+                 "cannot be a body with volume");
     SurfaceMesh inward = icosphere_mesh({.radius = 0.5, .frequency = 3});
     for (Triangle& t : inward.triangles) std::swap(t[0], t[1]);
     EXPECT_ERROR(Simulation simulation(free_scene(Cloth::soft_body(inward))), bad_input, "body with volume");
@@ -472,23 +560,31 @@ TEST(VolumeBodies, WhatDoesNotFitIsRefused)
 {
     const auto refusal = [](const std::function<void(Scene&, Cloth&)>& change) {
         return std::string(test::error_of([&] {
-            Cloth body = ball(3);
-            Scene scene = free_scene(Cloth::sheet({.rows = 3, .columns = 3}));
-            change(scene, body);
-            scene.add(body);
-            validate(scene);
-        }).what());
+                               Cloth body = ball(3);
+                               Scene scene = free_scene(Cloth::sheet({.rows = 3, .columns = 3}));
+                               change(scene, body);
+                               scene.add(body);
+                               validate(scene);
+                           }).what());
     };
     EXPECT_NE(refusal([](Scene& s, Cloth&) { s.method = Method::constraint; }).find("bodies[0].springs"),
               std::string::npos);
-    EXPECT_NE(refusal([](Scene&, Cloth& b) { b.body->volume.target = {{0, 0}}; }).find("target[0].value"),
+    EXPECT_NE(refusal([](Scene&, Cloth& b) {
+                  b.body->volume.target = {{0, 0}};
+              }).find("target[0].value"),
               std::string::npos);
-    EXPECT_NE(refusal([](Scene&, Cloth& b) { b.body->volume.pressure = {{1, 0}, {1, 5}}; }).find("later"),
+    EXPECT_NE(refusal([](Scene&, Cloth& b) {
+                  b.body->volume.pressure = {{1, 0}, {1, 5}};
+              }).find("later"),
               std::string::npos);
-    EXPECT_NE(refusal([](Scene&, Cloth& b) { b.body->volume.weights = {1, 2}; }).find("weight"), std::string::npos);
+    EXPECT_NE(refusal([](Scene&, Cloth& b) {
+                  b.body->volume.weights = {1, 2};
+              }).find("weight"),
+              std::string::npos);
     EXPECT_NE(refusal([](Scene&, Cloth& b) { b.formulation = Formulation::spring_list; }).find("formulation"),
               std::string::npos);
-    EXPECT_NE(refusal([](Scene&, Cloth& b) { b.body->internal.neighbours = 0; }).find("neighbours"), std::string::npos);
+    EXPECT_NE(refusal([](Scene&, Cloth& b) { b.body->internal.neighbours = 0; }).find("neighbours"),
+              std::string::npos);
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "commands.hpp"
-#include "files/atomic_file.hpp"
 #include "files/numbered_name.hpp"
 #include "pliant/error.hpp"
 #include "pliant/mesh.hpp"
@@ -34,18 +33,35 @@ int check_scene(const std::string& name, const std::vector<std::string>& overrid
     return 0;
 }
 
-/// What the default repair would do, and what it would leave.
-void preview_repair(const SurfaceMesh& mesh)
+/// Whether the mesh could be a body with volume, and what is left.
+std::string state_of(const SurfaceMesh& mesh)
 {
-    SurfaceMesh mended = mesh;
-    const RepairReport report = repair_mesh(mended);
+    const MeshReport report = inspect_mesh(mesh);
+    if (report.closed && report.oriented) {
+        char volume[64];
+        std::snprintf(volume, sizeof volume, "%.6g", report.volume);
+        return "closed, with a volume of " + std::string(volume) + " m^3";
+    }
+    return report.boundary_loops > 0
+               ? "open, with " + std::to_string(report.boundary_loops) + " boundary loops"
+               : "not closed";
+}
+
+/// What the default repair would do, and what holes would take.
+void preview_repair(SurfaceMesh mesh)
+{
+    const RepairReport report = repair_mesh(mesh);
     const std::string lines = describe(report);
-    std::printf("--repair would %s\n%s", lines.empty() ? "change nothing" : "do this:", lines.c_str());
+    if (lines.empty())
+        std::printf("--repair would change nothing\n");
+    else
+        std::printf("--repair would do this, after which the mesh is %s:\n%s", state_of(mesh).c_str(),
+                    lines.c_str());
     if (report.open_loops == 0) return;
-    const RepairReport filled = repair_mesh(mended, {.fill_holes = true});
-    const std::size_t left = filled.open_loops;
-    std::printf("with --fill-holes as well:\n%s", describe(filled).c_str());
-    if (left > 0) std::printf("  boundary loops left: %zu\n", left);
+    const std::string filled = describe(repair_mesh(mesh, {.fill_holes = true}));
+    if (!filled.empty())
+        std::printf("--fill-holes would do this as well, after which it is %s:\n%s", state_of(mesh).c_str(),
+                    filled.c_str());
 }
 
 int check_mesh(const CheckOptions& options)
@@ -56,20 +72,17 @@ int check_mesh(const CheckOptions& options)
         throw Error(ErrorKind::bad_usage,
                     "--out " + options.out_file + " is the mesh that is read; give another name");
     SurfaceMesh mesh = read_mesh(in);
-    std::printf("%s\n%s", options.scene_or_mesh.c_str(), describe(inspect_mesh(mesh)).c_str());
-    if (!options.repair) {
-        preview_repair(mesh);
-        return 0;
+    std::string text = options.scene_or_mesh + "\n" + describe(inspect_mesh(mesh));
+    if (options.repair) {
+        const std::string lines = describe(repair_mesh(mesh, options.repair_options));
+        text += lines.empty() ? "\nnothing to repair\n"
+                              : "\nrepaired:\n" + lines + "\n" + describe(inspect_mesh(mesh));
+        if (!out.empty()) write_mesh(out, mesh);  // before anything is printed: it may fail
+        text += out.empty() ? "nothing was written; --out FIXED.ply keeps the mended mesh\n"
+                            : "written: " + options.out_file + "\n";
     }
-    const std::string lines = describe(repair_mesh(mesh, options.repair_options));
-    std::printf("\n%s\n%s", lines.empty() ? "nothing to repair" : "repaired:", lines.c_str());
-    if (!lines.empty()) std::printf("\n%s", describe(inspect_mesh(mesh)).c_str());
-    if (out.empty()) {
-        std::printf("nothing was written; --out FIXED.ply keeps the mended mesh\n");
-    } else {
-        write_mesh(out, mesh);
-        std::printf("written: %s\n", options.out_file.c_str());
-    }
+    std::fputs(text.c_str(), stdout);
+    if (!options.repair) preview_repair(mesh);
     return 0;
 }
 

@@ -112,7 +112,7 @@ struct Report {
     bool device_lost = false;  ///< a step could not be run: the device, or the memory for it, was not there
     std::string failure;       ///< and why
     FrameMeasures measures;
-    SolverReport solver;  ///< zeros with the methods mass_spring and volume
+    SolverReport solver;               ///< zeros with the methods mass_spring and volume
     std::vector<BodyMeasures> bodies;  ///< in the order of the scene; empty without soft bodies
     VolumeReport volume;
     // The first non-finite node, when there is one.
@@ -157,9 +157,8 @@ public:
     const Report& report() const;
     std::vector<PassTime> pass_times() const;
 
-    /// Positions of a cloth or soft body in m, one for each node, row by row on a sheet, in the order of its mesh
-    /// otherwise. Read back from the device when
-    /// asked for; valid until the next call of advance().
+    /// Positions of a cloth or soft body in m, one for each node, row by row on a sheet, in the order of its
+    /// mesh otherwise. Read back from the device when asked for; valid until the next call of advance().
     std::span<const Vec3> positions(const ClothHandle& cloth);
     std::span<const Vec3> positions(std::size_t cloth = 0);
     /// Velocities in m/s.
@@ -201,9 +200,10 @@ public:
     /// A sentence when the scene's step is larger than `stable_step`, else empty.
     std::string stability_warning() const;
 
-    /// The buffers of a cloth (of a soft body there are none) on the device, up to date and idle until the next advance(), which submits to
-    /// queue 0 of the family; nothing unless the backend is vulkan. Throws Error(device_failure) when the
-    /// device is lost. `position` alternates between two buffers, so ask again after every advance().
+    /// The buffers of a cloth (of a soft body there are none) on the device, up to date and idle until the
+    /// next advance(), which submits to queue 0 of the family; nothing unless the backend is vulkan. Throws
+    /// Error(device_failure) when the device is lost. `position` alternates between two buffers, so ask again
+    /// after every advance().
     std::optional<DeviceBuffers> device_buffers(std::size_t cloth = 0);
     /// For Pliant's own renderer; null unless the backend is vulkan.
     DeviceState* device_state();

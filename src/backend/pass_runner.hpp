@@ -24,8 +24,8 @@ struct FrameInput {
     bool colliders_rest = true;  ///< the same at every step
     /// By cloth: where its attached nodes are, a row for each step; none where the program attaches nothing.
     std::span<const std::vector<Vec3>> attached = {};
-    /// By cloth: what is wanted of its bodies at the end of each step, or once where that does not change; see
-    /// BodyModel::goal_at. Empty: what is wanted at the start.
+    /// By cloth: what is wanted of its bodies at the end of each step, or once where that does not change;
+    /// see BodyModel::goal_at. Empty: what is wanted at the start.
     std::span<const std::vector<VolumeGoal>> goals = {};
 
     /// Colliders at the end of a step of the frame; the calls that know no collider may ask with any index.

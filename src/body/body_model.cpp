@@ -57,8 +57,8 @@ std::vector<Vec3d> vertex_normals(std::span<const Vec3> positions, std::span<con
     return normals;
 }
 
-/// Where a ray leaves the surface first: its distance, or infinity. Moeller and Trumbore, "Fast, minimum storage
-/// ray/triangle intersection", 1997.
+/// Where a ray leaves the surface first: its distance, or infinity. Moeller and Trumbore, "Fast, minimum
+/// storage ray/triangle intersection", 1997.
 double exit_distance(Vec3d from, Vec3d direction, std::uint32_t start, std::span<const Vec3> positions,
                      std::span<const Triangle> triangles)
 {
@@ -158,7 +158,8 @@ Ragged<std::uint32_t> rings_of(std::uint32_t node_count, std::span<const Triangl
     Ragged<std::uint32_t> rings;
     rings.start.push_back(0);
     rings.entries.reserve(around.corners.size());
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> sides;  // of one node: (b, c) of each triangle (node, b, c)
+    std::vector<std::pair<std::uint32_t, std::uint32_t>>
+        sides;  // of one node: (b, c) of each triangle (node, b, c)
     for (std::uint32_t node = 0; node < node_count; ++node) {
         sides.clear();
         for (std::uint32_t k = around.start[node]; k < around.start[node + 1]; ++k) {
@@ -180,7 +181,8 @@ Ragged<std::uint32_t> rings_of(std::uint32_t node_count, std::span<const Triangl
 Ragged<std::uint32_t> fans_of(const Ragged<std::uint32_t>& rings)
 {
     const auto count = static_cast<std::uint32_t>(rings.row_count());
-    // Entry k of the ring of a stands for the triangle (a, b_k, b_k+1); it is in the rings of b_k and b_k+1, too.
+    // Entry k of the ring of a stands for the triangle (a, b_k, b_k+1); it is in the rings of b_k and b_k+1,
+    // too.
     std::vector<bool> taken(rings.entries.size(), false);
     const auto next_in = [&](std::uint32_t node, std::uint32_t k) {
         return k + 1 < rings.start[node + 1] ? k + 1 : rings.start[node];
@@ -196,8 +198,8 @@ Ragged<std::uint32_t> fans_of(const Ragged<std::uint32_t>& rings)
     std::vector<std::uint32_t> left(count);
     std::uint32_t most = 0;
     const auto count_left = [&](std::uint32_t node) {
-        return static_cast<std::uint32_t>(std::count(taken.begin() + rings.start[node],
-                                                     taken.begin() + rings.start[node + 1], false));
+        return static_cast<std::uint32_t>(
+            std::count(taken.begin() + rings.start[node], taken.begin() + rings.start[node + 1], false));
     };
     for (std::uint32_t node = 0; node < count; ++node) most = std::max(most, left[node] = count_left(node));
 
@@ -230,7 +232,8 @@ Ragged<std::uint32_t> fans_of(const Ragged<std::uint32_t>& rings)
             if (!fan.empty()) fans.push_back(std::move(fan));
             left[node] = 0;
         }
-    std::stable_sort(fans.begin(), fans.end(), [](const auto& a, const auto& b) { return a.size() > b.size(); });
+    std::stable_sort(fans.begin(), fans.end(),
+                     [](const auto& a, const auto& b) { return a.size() > b.size(); });
     Ragged<std::uint32_t> result;
     result.start.push_back(0);
     for (const auto& fan : fans) {
@@ -267,7 +270,8 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> internal_pairs(std::span<co
             if (std::isfinite(distance)) choices[i].push_back(nearest_to(x + inward * distance, i));
             continue;
         }
-        // Nearest: those that a straight way through the inside can reach, both ends within 60 degrees of straight in.
+        // Nearest: those that a straight way through the inside can reach, both ends within 60 degrees of
+        // straight in.
         constexpr double straight = 0.5;
         facing.clear();
         for (std::uint32_t j = 0; j < count; ++j) {

@@ -1,5 +1,5 @@
-// What a soft body has beyond a cloth: the ring of neighbours around each node, fans that cover its triangles once, and
-// the blocks of both that sums are made of.
+// What a soft body has beyond a cloth: the ring of neighbours around each node, fans that cover its triangles
+// once, and the blocks of both that sums are made of.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct BodyPart {
     std::uint32_t first_node = 0, node_count = 0;
     std::uint32_t first_block = 0, block_count = 0;          ///< in BodyModel::node_blocks
     std::uint32_t first_fan_block = 0, fan_block_count = 0;  ///< in BodyModel::fan_blocks
-    double volume = 0;          ///< m3, at rest
+    double volume = 0;                                       ///< m3, at rest
     double inverse_weight = 0;  ///< 1 / sum of the weights of free nodes; 0 where all weights are 1
     double inverse_fans = 0;    ///< 1 / number of its fans
     Vec3d centre;               ///< m, mean of its nodes at the start, in the model's coordinates
@@ -43,8 +43,8 @@ struct VolumeGoal {
 };
 
 struct BodyModel {
-    /// By node: the first of its ClothModel::neighbours that is across the inside. Those before it are the ring around
-    /// it, counter-clockwise seen from outside.
+    /// By node: the first of its ClothModel::neighbours that is across the inside. Those before it are the
+    /// ring around it, counter-clockwise seen from outside.
     std::vector<std::uint32_t> links;
     /// Triangles that share a node: the node, and then those around it, one more than there are triangles.
     Ragged<std::uint32_t> fans;
@@ -52,7 +52,7 @@ struct BodyModel {
     std::vector<BodyPart> parts;
     std::vector<float> weights;  ///< by node; empty where all are 1
     std::vector<LoadedNode> loads;
-    bool constrained = false;    ///< keeps its volume
+    bool constrained = false;  ///< keeps its volume
     bool has_pressure = false;
 
     double weight_of(std::size_t node) const { return weights.empty() ? 1.0 : double{weights[node]}; }
@@ -67,12 +67,12 @@ double value_at(const std::vector<TimedValue>& keyframes, double time, double ot
 /// 6 V of triangles, exact but for the rounding of doubles, about the first vertex.
 double sixfold_volume(std::span<const Vec3> positions, std::span<const Triangle> triangles);
 
-/// The vertices of a mesh in an order in which neighbours are near each other and rings of one length side by side: at
-/// place k the vertex that becomes node k.
+/// The vertices of a mesh in an order in which neighbours are near each other and rings of one length side by
+/// side: at place k the vertex that becomes node k.
 std::vector<std::uint32_t> node_order(const SurfaceMesh& mesh);
 
-/// The ring of neighbours around each node of a closed surface, counter-clockwise seen from outside, from the neighbour
-/// with the lowest index on.
+/// The ring of neighbours around each node of a closed surface, counter-clockwise seen from outside, from the
+/// neighbour with the lowest index on.
 Ragged<std::uint32_t> rings_of(std::uint32_t node_count, std::span<const Triangle> triangles);
 
 /// Fans that hold each triangle once, the longest first.

@@ -59,6 +59,7 @@ struct ClothParameters {
     double drag = 0, lift = 0;
     double damping = 0;    ///< 1/s
     double thickness = 0;  ///< m
+    friend bool operator==(const ClothParameters&, const ClothParameters&) = default;
 };
 
 /// What the constraint methods know of a class of springs: as LimitCurve of laws/limit.law.glsl.
@@ -109,6 +110,11 @@ public:
     /// Springs, and the ring of neighbours, are gathered in one pass, which needs no list of forces.
     bool gathers_rings() const { return body && !spring_list; }
 
+    /// Whether another body can be stepped in the same passes: it is of the same material, and near.
+    bool can_take(const ClothModel& other) const;
+    /// Appends a body; it is then the last of `body->parts`.
+    void take(const ClothModel& other);
+
     /// Triangles; those of a sheet are made when first asked for.
     std::span<const Triangle> triangles() const;
 
@@ -158,7 +164,8 @@ public:
     std::optional<BodyModel> body;
     std::span<const Neighbour> ring_of(std::size_t node) const
     {
-        return {neighbours.entries.data() + neighbours.start[node], neighbours.entries.data() + body->links[node]};
+        return {neighbours.entries.data() + neighbours.start[node],
+                neighbours.entries.data() + body->links[node]};
     }
     std::span<const Neighbour> links_of(std::size_t node) const
     {

@@ -1,4 +1,5 @@
-// A soft body as a cloth model: its nodes in an order of their own, near an origin of their own, with rings and fans.
+// A soft body as a cloth model: its nodes in an order of their own, near an origin of their own, with rings
+// and fans.
 #include <algorithm>
 #include <cmath>
 
@@ -9,15 +10,16 @@ namespace pliant {
 namespace {
 
 /// Appends the blocks of `count` things of one body from `first` on.
-void append_blocks(std::vector<BodyBlock>& blocks, std::uint32_t first, std::uint32_t count, std::uint32_t body)
+void append_blocks(std::vector<BodyBlock>& blocks, std::uint32_t first, std::uint32_t count,
+                   std::uint32_t body)
 {
     constexpr std::uint32_t size = 256;
     for (std::uint32_t k = 0; k < count; k += size)
         blocks.push_back({first + k, std::min(size, count - k), body});
 }
 
-/// Where a body's own coordinates begin: near its middle, on a grid as wide as the body, so that the same body at places
-/// of that grid is stepped with the same bits.
+/// Where a body's own coordinates begin: near its middle, on a grid as wide as the body, so that the same
+/// body at places of that grid is stepped with the same bits.
 Vec3d origin_of(Vec3d least, Vec3d most)
 {
     const double extent = std::max({most.x - least.x, most.y - least.y, most.z - least.z, 1e-30});
@@ -96,9 +98,10 @@ void ClothModel::finish_body(const Cloth& cloth)
         for (std::size_t i = 0; i < positions.size(); ++i)
             if (inverse_masses[i] > 0) sum += double{body->weights[i]};
         if (!(sum > 0) && body->constrained)
-            throw Error(ErrorKind::bad_input, "body '" + cloth.name +
-                                                  "': no free vertex has a weight above 0, so that nothing could keep its "
-                                                  "volume; move or widen volume.focus, or give other weights");
+            throw Error(ErrorKind::bad_input,
+                        "body '" + cloth.name +
+                            "': no free vertex has a weight above 0, so that nothing could keep its "
+                            "volume; move or widen volume.focus, or give other weights");
         part.inverse_weight = sum > 0 ? 1 / sum : 0;
     }
     set_loads(cloth);
@@ -143,9 +146,9 @@ void ClothModel::list_body_springs(const BodyOptions& options, const Ragged<std:
     }
 }
 
-/// Forces and torques of regions, added up node by node: f = F / n + tau x (x - c) / sum r^2, with r the distance of a
-/// node from the axis of tau through the middle c. Together they have the torque that is asked for as long as the nodes
-/// turn about that axis.
+/// Forces and torques of regions, added up node by node: f = F / n + tau x (x - c) / sum r^2, with r the
+/// distance of a node from the axis of tau through the middle c. Together they have the torque that is asked
+/// for as long as the nodes turn about that axis.
 void ClothModel::set_loads(const Cloth& cloth)
 {
     std::vector<LoadedNode> by_node(positions.size());
@@ -165,7 +168,8 @@ void ClothModel::set_loads(const Cloth& cloth)
         }
         const std::string where = "body '" + cloth.name + "': forces[" + std::to_string(k) + "]";
         if (nodes.empty())
-            throw Error(ErrorKind::bad_input, where + " is a box that contains no free node; move or enlarge it");
+            throw Error(ErrorKind::bad_input,
+                        where + " is a box that contains no free node; move or enlarge it");
         const double share = 1.0 / static_cast<double>(nodes.size());
         middle = middle * share;
         Vec3d turn{};
@@ -177,8 +181,9 @@ void ClothModel::set_loads(const Cloth& cloth)
                 inertia += dot(arm, arm);
             }
             if (!(inertia > 0))
-                throw Error(ErrorKind::bad_input,
-                            where + ".torque has all its nodes on its axis, where none can turn; enlarge the box");
+                throw Error(
+                    ErrorKind::bad_input,
+                    where + ".torque has all its nodes on its axis, where none can turn; enlarge the box");
             turn = given.torque * (1 / inertia);
         }
         for (const std::uint32_t i : nodes) {
@@ -189,6 +194,85 @@ void ClothModel::set_loads(const Cloth& cloth)
     }
     for (std::uint32_t i = 0; i < positions.size(); ++i)
         if (loaded[i]) body->loads.push_back({i, by_node[i].force, by_node[i].torque});
+}
+
+bool ClothModel::can_take(const ClothModel& other) const
+{
+    if (!body || !other.body) return false;
+    // Further away than this, in widths of the body, single precision would see it less sharply than by its
+    // own origin.
+    constexpr double far = 32;
+    double width = 0;
+    for (const Vec3& x : other.positions)
+        width = std::max(width, length_of(to_double(x) - to_double(other.positions[0])));
+    constexpr std::size_t most_nodes = 1u << 22;
+    return parameters == other.parameters && body->constrained == other.body->constrained &&
+           body->has_pressure == other.body->has_pressure && spring_list == other.spring_list &&
+           length_of(other.origin - origin) <= far * width &&
+           positions.size() + other.positions.size() <= most_nodes;
+}
+
+void ClothModel::take(const ClothModel& other)
+{
+    const auto node = static_cast<std::uint32_t>(positions.size()),
+               spring = static_cast<std::uint32_t>(springs.size());
+    const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+    /// Rows behind ours, every entry moved.
+    const auto append_rows = [&](auto& to, const auto& from, auto moved) {
+        const auto first = static_cast<std::uint32_t>(to.entries.size());
+        for (std::size_t k = 1; k < from.start.size(); ++k) to.start.push_back(from.start[k] + first);
+        for (const auto& entry : from.entries) to.entries.push_back(moved(entry));
+        return first;
+    };
+    const Vec3d shift = other.origin - origin;
+    BodyModel& ours = *body;
+    const BodyModel& theirs = *other.body;
+
+    const bool weighted = !ours.weights.empty() || !theirs.weights.empty();
+    if (weighted && ours.weights.empty()) ours.weights.assign(positions.size(), 1.0f);
+    append(ours.weights, theirs.weights);
+    for (const Vec3& x : other.positions) positions.push_back(to_float(to_double(x) + shift));
+    if (weighted) ours.weights.resize(positions.size(), 1.0f);
+    append(velocities, other.velocities);
+    append(masses, other.masses);
+    append(inverse_masses, other.inverse_masses);
+
+    const auto triangle = static_cast<std::uint32_t>(triangles_.size());
+    for (const Triangle& t : other.triangles_) triangles_.push_back({t[0] + node, t[1] + node, t[2] + node});
+    append_rows(node_triangles, other.node_triangles, [&](std::uint32_t t) { return t + triangle; });
+    for (const Spring& s : other.springs)
+        springs.push_back({s.i + node, s.j + node, s.spring_class, s.rest_length});
+    const std::uint32_t neighbour = append_rows(neighbours, other.neighbours, [&](Neighbour n) {
+        return Neighbour{n.node + node, n.spring + spring};
+    });
+    for (const std::uint32_t link : theirs.links) ours.links.push_back(link + neighbour);
+
+    const auto motion = static_cast<std::uint32_t>(motions.size());
+    for (const AttachedNode& a : other.attached)
+        attached.push_back({a.node + node, a.motion + motion, a.arm});
+    for (const AttachmentMotion& m : other.motions) motions.push_back({m.centre + shift, m.keyframes});
+
+    const auto fan = static_cast<std::uint32_t>(ours.fans.row_count());
+    const auto part = static_cast<std::uint32_t>(ours.parts.size());
+    const auto node_block = static_cast<std::uint32_t>(ours.node_blocks.size());
+    const auto fan_block = static_cast<std::uint32_t>(ours.fan_blocks.size());
+    append_rows(ours.fans, theirs.fans, [&](std::uint32_t n) { return n + node; });
+    for (const BodyBlock& b : theirs.node_blocks)
+        ours.node_blocks.push_back({b.first + node, b.count, b.body + part});
+    for (const BodyBlock& b : theirs.fan_blocks)
+        ours.fan_blocks.push_back({b.first + fan, b.count, b.body + part});
+    for (BodyPart p : theirs.parts) {
+        p.first_node += node;
+        p.first_block += node_block;
+        p.first_fan_block += fan_block;
+        p.centre = p.centre + shift;
+        ours.parts.push_back(std::move(p));
+    }
+    // f = F + tau x (p - shift) of a position p against our origin
+    for (const LoadedNode& l : theirs.loads)
+        ours.loads.push_back({l.node + node, l.force - cross(l.torque, shift), l.torque});
+    spring_count_ += other.spring_count_;
+    measured_spring_count_ += other.measured_spring_count_;
 }
 
 }  // namespace pliant

@@ -85,6 +85,16 @@ bool is_mesh_file(const std::filesystem::path& file)
            formats.end();
 }
 
+std::vector<float> read_vertex_attribute(const std::filesystem::path& file, const std::string& name)
+{
+    if (format_of(file, false).read != read_ply)
+        fail("read", file,
+             "only a .ply file has properties of vertices; the property " + in_quotes(name) +
+                 " was asked for");
+    const std::string contents = file_contents(file);
+    return read_ply_attribute({file.string(), contents}, name);
+}
+
 SurfaceMesh read_mesh(const std::filesystem::path& file)
 {
     const MeshFormat& format = format_of(file, false);

@@ -22,6 +22,7 @@ struct MeshSource {
 [[noreturn]] void mesh_error_at_byte(const MeshSource& source, std::size_t byte, const std::string& message);
 
 SurfaceMesh read_ply(const MeshSource& source);
+std::vector<float> read_ply_attribute(const MeshSource& source, const std::string& name);
 SurfaceMesh read_obj(const MeshSource& source);
 SurfaceMesh read_stl(const MeshSource& source);
 SurfaceMesh read_off(const MeshSource& source);

@@ -14,12 +14,6 @@ namespace pliant {
 
 namespace {
 
-double edge_length(const SurfaceMesh& mesh, const EdgeUse& edge)
-{
-    const Vec3d along = to_double(mesh.vertices[edge.high]) - to_double(mesh.vertices[edge.low]);
-    return std::sqrt(dot(along, along));
-}
-
 /// Edges by the number of their triangles, their direction and length.
 void inspect_edges(const SurfaceMesh& mesh, std::span<const EdgeUse> uses, MeshReport& report)
 {
@@ -42,29 +36,6 @@ void inspect_edges(const SurfaceMesh& mesh, std::span<const EdgeUse> uses, MeshR
         length_sum += length;
     });
     if (report.edges > 0) report.edge_mean = length_sum / static_cast<double>(report.edges);
-}
-
-/// Chains of boundary edges, by their first vertex.
-std::vector<BoundaryLoop> boundary_loops(const SurfaceMesh& mesh, std::span<const EdgeUse> uses)
-{
-    DisjointSets chains(mesh.vertices.size());
-    std::vector<EdgeUse> boundary;
-    for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
-        if (edge.size() != 1) return;
-        chains.join(edge[0].low, edge[0].high);
-        boundary.push_back(edge[0]);
-    });
-    std::vector<BoundaryLoop> loops;
-    // Edges come sorted by their lower vertex, and a chain's root is its lowest.
-    for (const EdgeUse& edge : boundary) {
-        const auto first = static_cast<std::uint32_t>(chains.root(edge.low));
-        if (edge.low == first && (loops.empty() || loops.back().vertex != first))
-            loops.push_back({first, to_double(mesh.vertices[first]), 0, 0});
-        const auto loop = std::ranges::lower_bound(loops, first, {}, &BoundaryLoop::vertex);
-        ++loop->edges;
-        loop->length += edge_length(mesh, edge);
-    }
-    return loops;
 }
 
 /// A fan is a set of triangle corners at one vertex, each sharing an edge with another.

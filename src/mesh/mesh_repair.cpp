@@ -1,6 +1,7 @@
 // repair_mesh: the order of its steps, and triangles that must go.
-#include <cmath>
+#include <set>
 #include <string>
+#include <utility>
 
 #include "mesh/hole_filling.hpp"
 #include "mesh/mesh_formats.hpp"
@@ -63,6 +64,7 @@ bool end_flat_triangles(SurfaceMesh& mesh, RepairReport& report)
         return found != uses.end() && found->same_edge(key);
     };
     std::vector<bool> changed(mesh.triangles.size()), drop(mesh.triangles.size());
+    std::set<std::pair<std::uint32_t, std::uint32_t>> made;  // edges of this pass, which `uses` does not know
     const auto drops_before = report.dropped_triangles, flips_before = report.flipped_edges;
     for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
         if (edge.size() > 2) return;
@@ -85,7 +87,8 @@ bool end_flat_triangles(SurfaceMesh& mesh, RepairReport& report)
             const std::uint32_t a = vertex(edge[k], 0), b = vertex(edge[k], 1), tip = vertex(edge[k], 2),
                                 far_tip = vertex(opposite, 2);
             const Triangle first = {tip, a, far_tip}, second = {far_tip, b, tip};
-            if (tip == far_tip || joined(tip, far_tip) || is_flat(mesh, first) || is_flat(mesh, second))
+            if (tip == far_tip || joined(tip, far_tip) || is_flat(mesh, first) || is_flat(mesh, second) ||
+                !made.insert(std::minmax(tip, far_tip)).second)
                 continue;
             mesh.triangles[flat] = first;
             mesh.triangles[other] = second;
@@ -111,7 +114,8 @@ void clean(SurfaceMesh& mesh, double weld_tolerance, RepairReport& report)
     constexpr int most_passes = 10;  // each ends the flat triangles that do not touch another one
     for (int pass = 0; pass < most_passes && end_flat_triangles(cleaned, done); ++pass) {
     }
-    if (cleaned.triangles.empty() || (is_closed(mesh) && !is_closed(cleaned))) return;
+    if (describe(done).empty() || cleaned.triangles.empty() || (is_closed(mesh) && !is_closed(cleaned)))
+        return;
     mesh = std::move(cleaned);
     report = done;
 }
@@ -141,7 +145,7 @@ RepairReport repair_mesh(SurfaceMesh& mesh, const RepairOptions& options)
         if (filling.holes > 0) turn_triangles(mesh, plan_orientation(mesh, edge_uses(mesh)).turn);
     }
     for (std::size_t t = 0; t < before.size(); ++t) report.turned_triangles += mesh.triangles[t] != before[t];
-    report.open_loops = inspect_mesh(mesh).boundary_loops;
+    report.open_loops = boundary_loops(mesh, edge_uses(mesh)).size();
     return report;
 }
 

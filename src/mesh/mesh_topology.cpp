@@ -26,6 +26,34 @@ std::vector<EdgeUse> edge_uses(const SurfaceMesh& mesh)
     return uses;
 }
 
+double edge_length(const SurfaceMesh& mesh, const EdgeUse& edge)
+{
+    const Vec3d along = to_double(mesh.vertices[edge.high]) - to_double(mesh.vertices[edge.low]);
+    return std::sqrt(dot(along, along));
+}
+
+std::vector<BoundaryLoop> boundary_loops(const SurfaceMesh& mesh, std::span<const EdgeUse> uses)
+{
+    DisjointSets chains(mesh.vertices.size());
+    std::vector<EdgeUse> boundary;
+    for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
+        if (edge.size() != 1) return;
+        chains.join(edge[0].low, edge[0].high);
+        boundary.push_back(edge[0]);
+    });
+    std::vector<BoundaryLoop> loops;
+    // Edges come sorted by their lower vertex, and a chain's root is its lowest.
+    for (const EdgeUse& edge : boundary) {
+        const auto first = static_cast<std::uint32_t>(chains.root(edge.low));
+        if (edge.low == first && (loops.empty() || loops.back().vertex != first))
+            loops.push_back({first, to_double(mesh.vertices[first]), 0, 0});
+        const auto loop = std::ranges::lower_bound(loops, first, {}, &BoundaryLoop::vertex);
+        ++loop->edges;
+        loop->length += edge_length(mesh, edge);
+    }
+    return loops;
+}
+
 Components components_of(const SurfaceMesh& mesh)
 {
     DisjointSets parts(mesh.vertices.size());

@@ -62,6 +62,11 @@ void for_each_edge(std::span<const EdgeUse> uses, Visit visit)
     }
 }
 
+double edge_length(const SurfaceMesh& mesh, const EdgeUse& edge);  ///< m
+
+/// Chains of boundary edges, by their first vertex.
+std::vector<BoundaryLoop> boundary_loops(const SurfaceMesh& mesh, std::span<const EdgeUse> uses);
+
 /// The component of each triangle, from 0 in the order of their first triangle. Triangles are in one
 /// component when they share a vertex.
 struct Components {

@@ -202,7 +202,46 @@ SurfaceMesh read_body(const MeshSource& source, const PlyHeader& header, const P
     return mesh;
 }
 
+template <class Rows>
+std::vector<float> read_attribute(const PlyHeader& header, const PlyElement& vertex,
+                                  const PlyProperty& wanted, Rows rows)
+{
+    std::vector<float> values;
+    for (const PlyElement& element : header.elements) {
+        if (element.count == 0 || element.properties.empty()) continue;
+        rows.check_room(element);
+        if (&element != &vertex) {
+            skip_rows(rows, element);
+            continue;
+        }
+        for (std::uint64_t row = 0; row < element.count; ++row) {
+            rows.begin(element, row);
+            for (const PlyProperty& property : element.properties)
+                if (&property == &wanted)
+                    values.push_back(rows.coordinate(property));
+                else
+                    rows.skip(property);
+            rows.end();
+        }
+        break;
+    }
+    return values;
+}
+
 }  // namespace
+
+std::vector<float> read_ply_attribute(const MeshSource& source, const std::string& name)
+{
+    const PlyHeader header = read_ply_header(source);
+    const PlyElement& vertex = *layout_of(source, header).vertex;
+    const PlyProperty* wanted = property_named(source, vertex, name);
+    if (!wanted || wanted->length_type)
+        mesh_error_at_line(source, vertex.line,
+                           "element 'vertex' has no property " + in_quotes(name) + " that is one number");
+    if (header.encoding == PlyEncoding::ascii)
+        return read_attribute(header, vertex, *wanted, PlyTextRows(source, header));
+    return read_attribute(header, vertex, *wanted, PlyBinaryRows(source, header));
+}
 
 SurfaceMesh read_ply(const MeshSource& source)
 {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -50,7 +51,11 @@ void smooth(std::vector<Vec3d>& points, const std::vector<Triangle>& triangles, 
 struct SharedEdge {
     std::uint32_t low, high;
     std::size_t corner;
-    friend auto operator<=>(const SharedEdge&, const SharedEdge&) = default;
+
+    friend bool operator<(const SharedEdge& a, const SharedEdge& b)
+    {
+        return std::tuple(a.low, a.high, a.corner) < std::tuple(b.low, b.high, b.corner);
+    }
 };
 
 double cotangent(Vec3d tip, Vec3d a, Vec3d b)
@@ -72,10 +77,10 @@ std::size_t flip_edges(std::vector<Triangle>& triangles, const std::vector<Vec3d
             sides.push_back({low, high, 3 * t + k});
             ++valence[triangles[t][k]];
         }
-    std::ranges::sort(sides);
+    std::sort(sides.begin(), sides.end());
     const auto joined = [&](std::uint32_t a, std::uint32_t b) {
         const SharedEdge key{std::min(a, b), std::max(a, b), 0};
-        const auto found = std::ranges::lower_bound(sides, key);
+        const auto found = std::lower_bound(sides.begin(), sides.end(), key);
         return found != sides.end() && found->low == key.low && found->high == key.high;
     };
 

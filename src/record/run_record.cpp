@@ -93,7 +93,8 @@ std::map<std::string, double> RunSummary::values(Simulation& simulation) const
         }
     const double wall = std::max(report.wall_seconds, 1e-9);
     double ratio = 0;
-    for (const BodyMeasures& body : report.bodies) ratio += body.ratio / static_cast<double>(report.bodies.size());
+    for (const BodyMeasures& body : report.bodies)
+        ratio += body.ratio / static_cast<double>(report.bodies.size());
     return {{"nodes", static_cast<double>(simulation.node_count())},
             {"springs", static_cast<double>(simulation.spring_count())},
             {"triangles", static_cast<double>(simulation.triangle_count())},

@@ -9,8 +9,8 @@
 //   object(key, thing)                    the same for a thing that has `fields`
 //   list(key, things)                     an array of such objects
 //   one_of(variant, keys, with)           exactly one of the keys, which names the alternative
-//   and what a file says in another way than a Scene: format_version, step_length, mesh_file, body_shape, cloths,
-//   bodies, checks
+//   and what a file says in another way than a Scene: format_version, step_length, mesh_file, body_shape,
+//   cloths, bodies, checks
 #pragma once
 
 #include <array>
@@ -43,8 +43,8 @@ inline constexpr std::array edge_names{"top", "bottom", "left", "right"};
 inline constexpr std::array internal_names{"none", "opposite", "nearest"};
 // Keys in the order of their variants' alternatives.
 inline constexpr std::array shape_keys{"sheet", "mesh", "disc"};
-inline constexpr std::array body_shape_keys{"mesh",  "icosphere", "uv_sphere", "torus",
-                                            "box", "capsule",   "blob"};
+inline constexpr std::array body_shape_keys{"mesh", "icosphere", "uv_sphere", "torus",
+                                            "box",  "capsule",   "blob"};
 inline constexpr std::array pin_keys{"index", "corner", "edge", "box"};
 inline constexpr std::array collider_keys{"sphere", "plane", "box", "capsule"};
 /// Numbers of the summary that a scene may check.
@@ -276,7 +276,8 @@ void fields(auto& at, Is<VolumeOptions> auto& volume)
 
 void fields(auto& at, Is<RegionForce> auto& force)
 {
-    at.nested("box", [&](auto& inside) { fields(inside, force.box); }, required);
+    at.nested(
+        "box", [&](auto& inside) { fields(inside, force.box); }, required);
     at.vector("force", force.force, {-1e9, 1e9}, "N");
     at.vector("torque", force.torque, {-1e9, 1e9}, "N m");
 }

@@ -166,6 +166,18 @@ void ObjectReader::mesh_file(const char* key, SurfaceMesh& mesh)
     }
 }
 
+void ObjectReader::vertex_weights(const char* key, const SurfaceMesh& mesh, std::vector<float>& weights)
+{
+    std::string property;
+    text(key, property);
+    if (property.empty()) return;
+    try {
+        weights = read_vertex_attribute(mesh.file, property);
+    } catch (const Error& error) {
+        throw FieldError(path_of(key), "cannot be used: " + std::string(error.what()));
+    }
+}
+
 void ObjectReader::cloths(const char* key, Scene& scene)
 {
     each(key, [&](ObjectReader& inside) {
@@ -195,6 +207,7 @@ void ObjectReader::body_shape(Names keys, Cloth& cloth)
             nested(key, [&](ObjectReader& inside) {
                 inside.mesh_file("file", mesh);
                 inside.number("scale", cloth.scale, extent, "");
+                inside.vertex_weights("weights", mesh, cloth.body->volume.weights);
             });
             break;
         case 1: mesh = made(IcosphereOptions{}, icosphere_mesh); break;

@@ -75,6 +75,7 @@ public:
     void format_version(const char* key);
     void step_length(const char* key, TimeOptions& time);
     void mesh_file(const char* key, SurfaceMesh& mesh);
+    void vertex_weights(const char* key, const SurfaceMesh& mesh, std::vector<float>& weights);
     void body_shape(Names keys, Cloth& cloth);
     void cloths(const char* key, Scene& scene);
     void bodies(const char* key, Scene& scene);

@@ -183,11 +183,13 @@ private:
     }
 
     /// Values over time, in order and within their range.
-    void timed(const char* key, const std::vector<TimedValue>& values, const Range& range, const char* unit) const
+    void timed(const char* key, const std::vector<TimedValue>& values, const Range& range,
+               const char* unit) const
     {
         for (std::size_t i = 0; i < values.size(); ++i) {
             const std::string path = element_path(key, i);
-            require_number(member_path(path_, path + ".value"), values[i].value, range, unit, NumberKind::real);
+            require_number(member_path(path_, path + ".value"), values[i].value, range, unit,
+                           NumberKind::real);
             require(i == 0 || values[i].time > values[i - 1].time, path + ".time",
                     "is " + number_text(values[i].time) + " s, but must be later than the one before it");
         }
@@ -197,8 +199,9 @@ private:
     {
         timed("target", volume.target, {0.01, 100}, "");
         timed("pressure", volume.pressure, {-1e9, 1e9}, "Pa");
-        require(!volume.focus || volume.weights.empty(), "focus",
-                "is given beside weights of the vertices, but only one of them can say where the volume is kept");
+        require(
+            !volume.focus || volume.weights.empty(), "focus",
+            "is given beside weights of the vertices, but only one of them can say where the volume is kept");
         for (const float weight : volume.weights)
             require(weight >= 0 && weight <= 1, "weights",
                     "has " + number_text(double{weight}) + ", but a weight must be between 0 and 1");
@@ -214,7 +217,8 @@ private:
                     std::to_string(node_count(cloth)) + " vertices");
         require(cloth.formulation != Formulation::spring_list ||
                     (method == Method::mass_spring && cloth.body->volume.pressure.empty()),
-                "formulation", "is spring_list, but volume and pressure need what node_centric gathers: use automatic");
+                "formulation",
+                "is spring_list, but volume and pressure need what node_centric gathers: use automatic");
         require(method == Method::mass_spring || method == Method::volume, "springs",
                 "are stepped by the methods mass_spring and volume alone, but the method of the scene is " +
                     std::string(name_of(method)));
@@ -288,9 +292,10 @@ private:
         const std::pair<const char*, SpringRole> classes[] = {{"structural", springs.structural.role},
                                                               {"shear", springs.shear.role},
                                                               {"bend", springs.bend.role}};
-        const std::string reason = method == Method::acad
-                                       ? std::string("the method acad makes its own constraints of springs")
-                                       : "the method " + std::string(name_of(method)) + " has no constraints of springs";
+        const std::string reason =
+            method == Method::acad
+                ? std::string("the method acad makes its own constraints of springs")
+                : "the method " + std::string(name_of(method)) + " has no constraints of springs";
         for (const auto& [name, role] : classes)
             require(role != SpringRole::constraint || method == Method::constraint,
                     cloth + ".springs." + name + ".role",
@@ -299,7 +304,8 @@ private:
 
     void relations(const Scene& scene) const
     {
-        require(scene.cloth_count() > 0, "cloths", "is empty, but a scene needs at least one cloth, or one of bodies");
+        require(scene.cloth_count() > 0, "cloths",
+                "is empty, but a scene needs at least one cloth, or one of bodies");
         std::uint64_t total = 0;
         std::size_t cloths = 0, bodies = 0;
         for (std::size_t i = 0; i < scene.cloth_count(); ++i) {

@@ -1,5 +1,6 @@
 #include "pliant/simulation.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -104,8 +105,17 @@ public:
             ClothModel model(scene.cloth(c), scene);
             ClothPlace place{static_cast<std::uint32_t>(models.size()), 0, model.node_count(), 0,
                              std::exchange(model.node_of_vertex, {})};
-            models.push_back(std::move(model));
-            if (models.back().is_body()) report.bodies.push_back({c});
+            if (model.is_body()) report.bodies.push_back({c});
+            const auto host = std::find_if(models.begin(), models.end(),
+                                           [&](const ClothModel& other) { return other.can_take(model); });
+            if (host == models.end()) {
+                models.push_back(std::move(model));
+            } else {
+                place.model = static_cast<std::uint32_t>(host - models.begin());
+                place.first_node = host->node_count();
+                place.part = static_cast<std::uint32_t>(host->body->parts.size());
+                host->take(model);
+            }
             places.push_back(std::move(place));
         }
     }
@@ -294,7 +304,7 @@ public:
 
     FrameInput input(double step) const
     {
-        return {step,  static_cast<std::uint32_t>(scene.colliders.size()), placed, colliders_rest, attached,
+        return {step, static_cast<std::uint32_t>(scene.colliders.size()), placed, colliders_rest, attached,
                 goals};
     }
 
@@ -315,7 +325,8 @@ public:
             m.kinetic_energy += totals.kinetic_energy;
             m.elastic_energy += totals.elastic_energy;
             m.potential_energy += g * totals.height_moment;
-            if (models[c].is_body()) m.potential_energy -= models[c].mass() * dot(models[c].origin, scene.gravity);
+            if (models[c].is_body())
+                m.potential_energy -= models[c].mass() * dot(models[c].origin, scene.gravity);
             m.non_finite += static_cast<std::uint64_t>(totals.non_finite);
         }
         m.max_speed = std::sqrt(speed2);
@@ -490,7 +501,7 @@ public:
     std::uint64_t state_number = 1;  ///< counts states; 0 is none
     std::vector<ReadBack> read_backs;
     std::vector<std::map<Resource, ReadBack::Values<float>>> read_models;
-    std::vector<std::uint64_t> drawn;  ///< by model: the state of its normals and strains
+    std::vector<std::uint64_t> drawn;            ///< by model: the state of its normals and strains
     std::vector<std::vector<VolumeGoal>> goals;  ///< by model, see FrameInput
     double loss_sum = 0;
     Report report;
@@ -625,7 +636,8 @@ std::string Simulation::stability_warning() const
     const double frame = 1 / scene().time.frame_rate;
     if (scene().method == Method::acad)
         return "the step of " + seconds(step) + " exceeds the largest safe one of " + seconds(stable) +
-               ": below the threshold, springs are taken softer, as stiff as this step can carry; for their full "
+               ": below the threshold, springs are taken softer, as stiff as this step can carry; for their "
+               "full "
                "stiffness use at least " +
                std::to_string(static_cast<long long>(std::ceil(frame / stable))) +
                " substeps per frame (time.substeps)";

@@ -1,5 +1,5 @@
-// Kernels of soft bodies: included by kernels.inl, inside its unnamed namespace. A pack is W neighbouring nodes, or fans,
-// of a slice of 16.
+// Kernels of soft bodies: included by kernels.inl, inside its unnamed namespace. A pack is W neighbouring
+// nodes, or fans, of a slice of 16.
 
 constexpr std::size_t slice_lanes = 16;  // as Slices::lanes
 constexpr std::size_t slices_in_block = 16;
@@ -10,9 +10,14 @@ inline Vector gather(const ConstVectors& from, const std::uint32_t* index)
 }
 inline ConstVectors as_const(const Vectors& a) { return {a.x, a.y, a.z}; }
 inline Vector vector_of(const Vector3<float>& a) { return {Number(a.x), Number(a.y), Number(a.z)}; }
-inline L::Blocked load_blocked(const BodyArguments& a, std::ptrdiff_t offset)
+inline L::Blocked load_blocked(const BodyArguments& a, std::size_t block, std::ptrdiff_t offset)
 {
+    if (!a.any_blocked[block]) return L::blocked_by_nothing();
     return {load(a.blocked, offset), Number::load(a.blocked_count + offset)};
+}
+inline Number load_weight(const BodyArguments& a, std::ptrdiff_t offset)
+{
+    return a.weight ? Number::load(a.weight + offset) : Number(1.0f);
 }
 
 /// Lanes of a pack that belong to the block.
@@ -36,6 +41,20 @@ inline void store_some(const Vectors& to, std::ptrdiff_t offset, const Vector& a
     store_some(to.z + offset, a.z, lanes);
 }
 
+/// Loads the lanes that belong to the block, of planes that another thread may be writing behind it.
+inline Number load_some(const float* from, std::ptrdiff_t lanes)
+{
+    if (lanes >= width) return Number::load(from);
+    float values[width] = {};
+    for (std::ptrdiff_t k = 0; k < lanes; ++k) values[k] = from[k];
+    return Number::load(values);
+}
+inline Vector load_some(const Vectors& from, std::ptrdiff_t offset, std::ptrdiff_t lanes)
+{
+    return {load_some(from.x + offset, lanes), load_some(from.y + offset, lanes),
+            load_some(from.z + offset, lanes)};
+}
+
 /// Visits the packs of a block: f(slice, lane of the slice, place in the block, lanes that count).
 template <class Function>
 inline void for_each_pack(const BodyBlock& block, Function&& f)
@@ -48,10 +67,11 @@ struct PackRing {
     Vector force, gradient;
 };
 
-/// Springs and gradient of a pack of nodes, in the order of their rings; the rest lengths of entries that only fill up a
-/// row are negative, and they repeat the last neighbour, so that they add nothing.
+/// Springs and gradient of a pack of nodes, in the order of their rings; the rest lengths of entries that
+/// only fill up a row are negative, and they repeat the last neighbour, so that they add nothing.
 template <bool with_gradient>
-inline PackRing ring_of(const BodyArguments& a, std::size_t slice, std::size_t lane, const Vector& x, const Vector& v)
+inline PackRing ring_of(const BodyArguments& a, std::size_t slice, std::size_t lane, const Vector& x,
+                        const Vector& v)
 {
     const StepConstants<float>& c = *a.constants;
     const Vector zero{Number(0.0f), Number(0.0f), Number(0.0f)};
@@ -109,7 +129,8 @@ inline void step_block(const BodyArguments& a, std::size_t b)
         next.velocity = L::velocity_step(now.velocity, force, w, gravity, decay, dt);
         next.position = L::position_step(now.position, next.velocity, dt);
         for (std::size_t k = 0; k < a.collider_count; ++k)
-            next = L::contact_step(now, next, spread_collider<L::Collider, Number>(a.colliders[k]), thickness, w, dt);
+            next = L::contact_step(now, next, spread_collider<L::Collider, Number>(a.colliders[k]), thickness,
+                                   w, dt);
         store_some(a.next_position, offset, next.position, lanes);
         store_some(a.next_velocity, offset, next.velocity, lanes);
     });
@@ -164,8 +185,9 @@ inline L::VolumeRate where(const L::mask& m, const L::VolumeRate& a)
 inline L::VolumeCubic where(const L::mask& m, const L::VolumeCubic& a)
 {
     const Number zero(0.0f);
-    return {L::choose(m, a.volume, zero), L::choose(m, a.low, zero),   L::choose(m, a.first, zero),
-            L::choose(m, a.second, zero), L::choose(m, a.third, zero), L::choose(m, a.arm, {zero, zero, zero})};
+    return {L::choose(m, a.volume, zero), L::choose(m, a.low, zero),
+            L::choose(m, a.first, zero),  L::choose(m, a.second, zero),
+            L::choose(m, a.third, zero),  L::choose(m, a.arm, {zero, zero, zero})};
 }
 
 void volume_gather(const BodyArguments& a, std::size_t first_block, std::size_t end_block)
@@ -175,24 +197,27 @@ void volume_gather(const BodyArguments& a, std::size_t first_block, std::size_t 
     const Number dt(c.dt), decay(c.decay);
     for (std::size_t b = first_block; b < end_block; ++b) {
         const BodyBlock& block = a.blocks[b];
-        LaneTotals totals(L::volume_rate_of_nothing(),
-                          [](const L::VolumeRate& p, const L::VolumeRate& q) { return L::volume_rate_merge(p, q); });
-        for_each_pack(block, [&](std::size_t slice, std::size_t lane, std::size_t place, std::ptrdiff_t lanes) {
-            const auto offset = static_cast<std::ptrdiff_t>(a.first_offset + block.first + place);
-            const Vector x = load(a.position, offset), v = load(a.velocity, offset);
-            const Number w = Number::load(a.inverse_mass + offset);
-            const PackRing ring = ring_of<true>(a, b * slices_in_block + slice, lane, x, v);
-            Vector force = ring.force;
-            if (a.external_force.x) force = force + load(a.external_force, offset);
-            if (a.has_pressure) force = force + ring.gradient * Number(a.numbers[block.body].pressure);
-            const Vector next = L::velocity_step(v, force, w, gravity, decay, dt);
-            store_some(a.gradient, offset, ring.gradient, lanes);
-            store_some(a.next_velocity, offset, next, lanes);
-            L::VolumeRate rate =
-                L::volume_rate_of(ring.gradient, next, w, Number::load(a.weight + offset), load_blocked(a, offset));
-            if (lanes < width) rate = where(lanes_below(static_cast<std::ptrdiff_t>(place), block.count), rate);
-            totals.add(slice, lane, rate);
+        LaneTotals totals(L::volume_rate_of_nothing(), [](const L::VolumeRate& p, const L::VolumeRate& q) {
+            return L::volume_rate_merge(p, q);
         });
+        for_each_pack(
+            block, [&](std::size_t slice, std::size_t lane, std::size_t place, std::ptrdiff_t lanes) {
+                const auto offset = static_cast<std::ptrdiff_t>(a.first_offset + block.first + place);
+                const Vector x = load(a.position, offset), v = load(a.velocity, offset);
+                const Number w = Number::load(a.inverse_mass + offset);
+                const PackRing ring = ring_of<true>(a, b * slices_in_block + slice, lane, x, v);
+                Vector force = ring.force;
+                if (a.external_force.x) force = force + load(a.external_force, offset);
+                if (a.has_pressure) force = force + ring.gradient * Number(a.numbers[block.body].pressure);
+                const Vector next = L::velocity_step(v, force, w, gravity, decay, dt);
+                store_some(a.gradient, offset, ring.gradient, lanes);
+                store_some(a.next_velocity, offset, next, lanes);
+                L::VolumeRate rate = L::volume_rate_of(ring.gradient, next, w, load_weight(a, offset),
+                                                       load_blocked(a, b, offset));
+                if (lanes < width)
+                    rate = where(lanes_below(static_cast<std::ptrdiff_t>(place), block.count), rate);
+                totals.add(slice, lane, rate);
+            });
         float(*out)[slice_lanes] = a.sums[b].lanes;
         totals.finish(block.count, [&](std::size_t lane, const L::VolumeRate& t) {
             const Number values[] = {t.rate,     t.mobility, t.pushed.x, t.pushed.y,
@@ -211,13 +236,16 @@ void volume_step(const BodyArguments& a, std::size_t first_block, std::size_t en
         const BodyNumbers& numbers = a.numbers[block.body];
         const Vector mean = vector_of(numbers.mean);
         const Number q(numbers.multiplier);
+        const bool before = a.any_blocked[b] != 0;
+        bool any = false;
         for_each_pack(block, [&](std::size_t, std::size_t, std::size_t place, std::ptrdiff_t lanes) {
             const auto offset = static_cast<std::ptrdiff_t>(a.first_offset + block.first + place);
-            const Number w = Number::load(a.inverse_mass + offset), weight = Number::load(a.weight + offset);
+            const Number w = Number::load(a.inverse_mass + offset), weight = load_weight(a, offset);
             const Vector gradient = load(a.gradient, offset);
             const L::Motion now = {load(a.position, offset), load(a.velocity, offset)};
             L::Motion next;
-            next.velocity = L::volume_velocity(load(a.next_velocity, offset), gradient, mean, w, weight, q);
+            next.velocity =
+                L::volume_velocity(load_some(a.next_velocity, offset, lanes), gradient, mean, w, weight, q);
             next.position = L::position_step(now.position, next.velocity, dt);
             L::Blocked held = L::blocked_by_nothing();
             for (std::size_t k = 0; k < a.collider_count; ++k) {
@@ -227,10 +255,15 @@ void volume_step(const BodyArguments& a, std::size_t first_block, std::size_t en
             }
             store_some(a.next_position, offset, next.position, lanes);
             store_some(a.next_velocity, offset, next.velocity, lanes);
-            store_some(a.blocked, offset, held.normal, lanes);
-            store_some(a.blocked_count + offset, held.count, lanes);
+            const bool touches = L::any_lane(held.count > Number(0.0f));
+            any = any || touches;
+            if (touches || before) {
+                store_some(a.blocked, offset, held.normal, lanes);
+                store_some(a.blocked_count + offset, held.count, lanes);
+            }
             store_some(a.direction, offset, L::volume_direction(gradient, mean, w, weight, held), lanes);
         });
+        a.any_blocked[b] = any;
     }
 }
 
@@ -240,31 +273,38 @@ void volume_cubic(const BodyArguments& a, std::size_t first_block, std::size_t e
     const Vector zero{Number(0.0f), Number(0.0f), Number(0.0f)};
     const ConstVectors position = a.measures ? a.position : as_const(a.next_position);
     const ConstVectors direction = as_const(a.direction);
-    const auto change_of = [&](const std::uint32_t* index) { return a.measures ? zero : gather(direction, index); };
+    const auto change_of = [&](const std::uint32_t* index) {
+        return a.measures ? zero : gather(direction, index);
+    };
     for (std::size_t b = first_block; b < end_block; ++b) {
         const BodyBlock& block = a.blocks[b];
         const Vector centre = vector_of(a.numbers[block.body].centre);
-        LaneTotals totals(L::volume_cubic_of_nothing(),
-                          [](const L::VolumeCubic& p, const L::VolumeCubic& q) { return L::volume_cubic_merge(p, q); });
-        for_each_pack(block, [&](std::size_t slice, std::size_t lane, std::size_t place, std::ptrdiff_t lanes) {
-            const std::size_t s = b * slices_in_block + slice;
-            const std::uint32_t begin = a.fans.start[s], end = a.fans.start[s + 1];
-            const std::uint32_t* index = a.fans.offset + begin * slice_lanes + lane;
-            const Vector apex = gather(position, index), apex_change = change_of(index);
-            L::FanSums fan = L::fan_of_nothing();
-            Vector side = zero, change = zero;
-            for (std::uint32_t r = begin + 1; r < end; ++r) {
-                index += slice_lanes;
-                const Vector next_side = gather(position, index) - apex, next_change = change_of(index) - apex_change;
-                if (r > begin + 1) fan = L::fan_add(fan, side, next_side, change, next_change);
-                side = next_side;
-                change = next_change;
-            }
-            L::VolumeCubic cubic = L::fan_cubic(fan, apex - centre, apex_change);
-            if (a.measures) cubic.first = cubic.second = cubic.third = Number(0.0f);  // without the sign of zeros
-            if (lanes < width) cubic = where(lanes_below(static_cast<std::ptrdiff_t>(place), block.count), cubic);
-            totals.add(slice, lane, cubic);
+        LaneTotals totals(L::volume_cubic_of_nothing(), [](const L::VolumeCubic& p, const L::VolumeCubic& q) {
+            return L::volume_cubic_merge(p, q);
         });
+        for_each_pack(
+            block, [&](std::size_t slice, std::size_t lane, std::size_t place, std::ptrdiff_t lanes) {
+                const std::size_t s = b * slices_in_block + slice;
+                const std::uint32_t begin = a.fans.start[s], end = a.fans.start[s + 1];
+                const std::uint32_t* index = a.fans.offset + begin * slice_lanes + lane;
+                const Vector apex = gather(position, index), apex_change = change_of(index);
+                L::FanSums fan = L::fan_of_nothing();
+                Vector side = zero, change = zero;
+                for (std::uint32_t r = begin + 1; r < end; ++r) {
+                    index += slice_lanes;
+                    const Vector next_side = gather(position, index) - apex,
+                                 next_change = change_of(index) - apex_change;
+                    if (r > begin + 1) fan = L::fan_add(fan, side, next_side, change, next_change);
+                    side = next_side;
+                    change = next_change;
+                }
+                L::VolumeCubic cubic = L::fan_cubic(fan, apex - centre, apex_change);
+                if (a.measures)
+                    cubic.first = cubic.second = cubic.third = Number(0.0f);  // without the sign of zeros
+                if (lanes < width)
+                    cubic = where(lanes_below(static_cast<std::ptrdiff_t>(place), block.count), cubic);
+                totals.add(slice, lane, cubic);
+            });
         float(*out)[slice_lanes] = a.sums[b].lanes;
         totals.finish(block.count, [&](std::size_t lane, const L::VolumeCubic& t) {
             const Number values[] = {t.volume, t.low, t.first, t.second, t.third, t.arm.x, t.arm.y, t.arm.z};
@@ -281,8 +321,9 @@ void volume_correct(const BodyArguments& a, std::size_t first_block, std::size_t
         const Number s(a.numbers[block.body].multiplier);
         for_each_pack(block, [&](std::size_t, std::size_t, std::size_t place, std::ptrdiff_t lanes) {
             const auto offset = static_cast<std::ptrdiff_t>(a.first_offset + block.first + place);
-            const L::Motion end = L::volume_corrected({load(a.next_position, offset), load(a.next_velocity, offset)},
-                                                      load(a.direction, offset), s, inverse_dt);
+            const L::Motion end = L::volume_corrected(
+                {load_some(a.next_position, offset, lanes), load_some(a.next_velocity, offset, lanes)},
+                load(a.direction, offset), s, inverse_dt);
             store_some(a.next_position, offset, end.position, lanes);
             store_some(a.next_velocity, offset, end.velocity, lanes);
         });

@@ -33,7 +33,8 @@ L::VolumeCubic cubic_from(const float* n) { return {n[0], n[1], n[2], n[3], n[4]
 }  // namespace
 
 template <class Row>
-CpuBody::SliceArrays CpuBody::sliced(const std::vector<BodyBlock>& blocks, const NodeLayout& layout, bool springs, Row row)
+CpuBody::SliceArrays CpuBody::sliced(const std::vector<BodyBlock>& blocks, const NodeLayout& layout,
+                                     bool springs, Row row)
 {
     SliceArrays slices;
     std::vector<std::vector<Entry>> rows(Slices::lanes);
@@ -41,13 +42,15 @@ CpuBody::SliceArrays CpuBody::sliced(const std::vector<BodyBlock>& blocks, const
         for (std::uint32_t first = 0; first < 256; first += Slices::lanes) {
             std::size_t longest = 0;
             for (std::uint32_t lane = 0; lane < Slices::lanes; ++lane) {
-                rows[lane] = first + lane < block.count ? row(block.first + first + lane) : std::vector<Entry>{};
+                rows[lane] =
+                    first + lane < block.count ? row(block.first + first + lane) : std::vector<Entry>{};
                 longest = std::max(longest, rows[lane].size());
             }
             for (std::size_t k = 0; k < longest; ++k)
                 for (const std::vector<Entry>& of : rows) {
                     // Beyond the end of a row its last entry again, without a spring: it adds nothing.
-                    const Entry entry = k < of.size() ? of[k] : Entry{of.empty() ? block.first : of.back().node, -1};
+                    const Entry entry =
+                        k < of.size() ? of[k] : Entry{of.empty() ? block.first : of.back().node, -1};
                     slices.offset.push_back(static_cast<std::uint32_t>(layout.offset(entry.node)));
                     if (springs) slices.rest_length.push_back(entry.rest_length);
                 }
@@ -66,14 +69,17 @@ CpuBody::CpuBody(const PlainCloth<float>& cloth)
             entries.push_back({n.node, static_cast<float>(cloth.model.springs[n.spring].rest_length)});
         return entries;
     };
-    ring_ = sliced(body.node_blocks, cloth.layout, true, [&](std::size_t node) { return entries_of(cloth.model.ring_of(node)); });
-    links_ = sliced(body.node_blocks, cloth.layout, true, [&](std::size_t node) { return entries_of(cloth.model.links_of(node)); });
+    ring_ = sliced(body.node_blocks, cloth.layout, true,
+                   [&](std::size_t node) { return entries_of(cloth.model.ring_of(node)); });
+    links_ = sliced(body.node_blocks, cloth.layout, true,
+                    [&](std::size_t node) { return entries_of(cloth.model.links_of(node)); });
     fans_ = sliced(body.fan_blocks, cloth.layout, false, [&](std::size_t fan) {
         std::vector<Entry> entries;
         for (const std::uint32_t node : body.fans.row(fan)) entries.push_back({node, 0});
         return entries;
     });
     has_links_ = !links_.offset.empty();
+    any_blocked_.resize(body.node_blocks.size(), 0);
     numbers_.resize(body.parts.size());
     sums_.resize(std::max(body.node_blocks.size(), body.fan_blocks.size()));
 }
@@ -126,7 +132,8 @@ void CpuBody::run(const Call& call, PlainCloth<float>& cloth, const Kernels& ker
     a.blocked = pointers(plain.blocked);
     a.blocked_count = plain.blocked_count.data();
     a.inverse_mass = cloth.inverse_mass.data();
-    a.weight = plain.weight.data();
+    a.weight = model.weights.empty() ? nullptr : plain.weight.data();
+    a.any_blocked = any_blocked_.data();
     a.first_offset = cloth.layout.offset(0);
     a.blocks = (fans ? model.fan_blocks : model.node_blocks).data();
     a.ring = ring_.view();
@@ -147,16 +154,18 @@ void CpuBody::run(const Call& call, PlainCloth<float>& cloth, const Kernels& ker
         case Pass::volume_gather:
             kernels.volume_gather(a, begin, end);
             for (std::size_t b = begin; b < end; ++b)
-                plain.rates[b] = total_of(sums_[b], rate_from, [](const L::VolumeRate& p, const L::VolumeRate& q) {
-                    return L::volume_rate_merge(p, q);
-                });
+                plain.rates[b] =
+                    total_of(sums_[b], rate_from, [](const L::VolumeRate& p, const L::VolumeRate& q) {
+                        return L::volume_rate_merge(p, q);
+                    });
             return;
         default:
             kernels.volume_cubic(a, begin, end);
             for (std::size_t b = begin; b < end; ++b)
-                plain.cubics[b] = total_of(sums_[b], cubic_from, [](const L::VolumeCubic& p, const L::VolumeCubic& q) {
-                    return L::volume_cubic_merge(p, q);
-                });
+                plain.cubics[b] =
+                    total_of(sums_[b], cubic_from, [](const L::VolumeCubic& p, const L::VolumeCubic& q) {
+                        return L::volume_cubic_merge(p, q);
+                    });
     }
 }
 

@@ -16,17 +16,22 @@ public:
     static bool has_kernel(Pass pass);
     /// Units of a call that a kernel runs: blocks of nodes or of fans.
     std::size_t size_of(const Call& call) const;
-    /// Before the parts of a call run: what they need to know of each body as a whole. Not for more than one thread.
+    /// Before the parts of a call run: what they need to know of each body as a whole. Not for more than one
+    /// thread.
     void prepare(const Call& call, PlainCloth<float>& cloth, const StepConstants<float>& constants);
     /// Runs the blocks [begin, end) of a call; parts may run at once.
-    void run(const Call& call, PlainCloth<float>& cloth, const Kernels& kernels, const StepConstants<float>& constants,
-             std::span<const Laws<float>::Collider> colliders, std::size_t begin, std::size_t end);
+    void run(const Call& call, PlainCloth<float>& cloth, const Kernels& kernels,
+             const StepConstants<float>& constants, std::span<const Laws<float>::Collider> colliders,
+             std::size_t begin, std::size_t end);
 
 private:
     struct SliceArrays {
         std::vector<std::uint32_t> start{0}, offset;
         std::vector<float> rest_length;
-        Slices view() const { return {start.data(), offset.data(), rest_length.empty() ? nullptr : rest_length.data()}; }
+        Slices view() const
+        {
+            return {start.data(), offset.data(), rest_length.empty() ? nullptr : rest_length.data()};
+        }
     };
     struct Entry {
         std::uint32_t node;
@@ -34,11 +39,13 @@ private:
     };
     /// Slices of blocks; `row` gives the entries of a node or fan.
     template <class Row>
-    static SliceArrays sliced(const std::vector<BodyBlock>& blocks, const NodeLayout& layout, bool springs, Row row);
+    static SliceArrays sliced(const std::vector<BodyBlock>& blocks, const NodeLayout& layout, bool springs,
+                              Row row);
 
     SliceArrays ring_, links_, fans_;
-    std::vector<BodyNumbers> numbers_;  // by body
-    std::vector<LaneSums> sums_;        // by block, of the pass that runs
+    std::vector<BodyNumbers> numbers_;       // by body
+    std::vector<LaneSums> sums_;             // by block, of the pass that runs
+    std::vector<std::uint8_t> any_blocked_;  // by block of nodes
     bool has_links_ = false;
 };
 

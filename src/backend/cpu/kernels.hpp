@@ -40,8 +40,8 @@ struct SpringArguments {
     const float *rest_length, *stiffness, *damping;
 };
 
-/// Rows of 16 lanes: the k-th entry of each of 16 neighbouring nodes or fans. Slice s has the rows from start[s] to
-/// start[s + 1]; entries are offsets into the planes.
+/// Rows of 16 lanes: the k-th entry of each of 16 neighbouring nodes or fans. Slice s has the rows from
+/// start[s] to start[s + 1]; entries are offsets into the planes.
 struct Slices {
     static constexpr std::size_t lanes = 16;
     const std::uint32_t* start;
@@ -68,12 +68,15 @@ struct BodyArguments {
     ConstVectors external_force;  ///< x is null without any
     Vectors gradient, direction, blocked;
     float* blocked_count;
-    const float *inverse_mass, *weight;
-    std::size_t first_offset;  ///< of node 0
-    const BodyBlock* blocks;   ///< of nodes, or of fans
-    Slices ring, links, fans;  ///< 16 slices for each block
-    const BodyNumbers* numbers;  ///< by body
-    LaneSums* sums;              ///< by block
+    /// By block of nodes: 1 where some node is blocked. Elsewhere the planes hold zeros, and nobody reads or
+    /// writes them.
+    std::uint8_t* any_blocked;
+    const float *inverse_mass, *weight;  ///< weight is null where all are 1
+    std::size_t first_offset;            ///< of node 0
+    const BodyBlock* blocks;             ///< of nodes, or of fans
+    Slices ring, links, fans;            ///< 16 slices for each block
+    const BodyNumbers* numbers;          ///< by body
+    LaneSums* sums;                      ///< by block
     bool has_links, has_pressure, measures;
     const StepConstants<float>* constants;
     const Laws<float>::Collider* colliders;

@@ -101,7 +101,8 @@ void sheet_step(const SheetArguments& a, std::size_t first_row, std::size_t end_
         next.velocity = L::velocity_step(now.velocity, force, w, gravity, decay, dt);
         next.position = L::position_step(now.position, next.velocity, dt);
         for (std::size_t k = 0; k < a.collider_count; ++k)
-            next = L::contact_step(now, next, spread_collider<L::Collider, Number>(a.colliders[k]), thickness, w, dt);
+            next = L::contact_step(now, next, spread_collider<L::Collider, Number>(a.colliders[k]), thickness,
+                                   w, dt);
         store(a.next_position, block.offset, next.position);
         store(a.next_velocity, block.offset, next.velocity);
     });
@@ -169,8 +170,7 @@ void solve(const SolverContext<float>& context, const Call& call, int first, int
 }  // namespace
 
 extern const Kernels PLIANT_KERNELS;
-const Kernels PLIANT_KERNELS = {PLIANT_KERNELS_NAME, sheet_step,    sheet_wind,  spring_forces,
-                                ring_step,           volume_gather, volume_step, volume_cubic,
-                                volume_correct,      solve};
+const Kernels PLIANT_KERNELS = {PLIANT_KERNELS_NAME, sheet_step,  sheet_wind,   spring_forces,  ring_step,
+                                volume_gather,       volume_step, volume_cubic, volume_correct, solve};
 
 }  // namespace pliant::cpu

@@ -43,8 +43,8 @@ struct RingSums {
     }
 };
 
-/// The fixed tree: 16 lanes, each of every 16th value in their order; then the lanes in theirs. To merge nothing changes
-/// no bit, so that `count` of the 256 values may be all.
+/// The fixed tree: 16 lanes, each of every 16th value in their order; then the lanes in theirs. To merge
+/// nothing changes no bit, so that `count` of the 256 values may be all.
 template <class Value, class Merge>
 Value merged_values(const Value* values, std::size_t count, Merge merge)
 {
@@ -61,7 +61,8 @@ Value merged_values(const Value* values, std::size_t count, Merge merge)
 
 /// Of the blocks of a body: value k of 256 is the sum of the k-th, the (k + 256)-th, ...
 template <class Value, class Nothing, class Merge>
-Value merged_blocks(const std::vector<Value>& all, std::size_t first, std::size_t count, Nothing nothing, Merge merge)
+Value merged_blocks(const std::vector<Value>& all, std::size_t first, std::size_t count, Nothing nothing,
+                    Merge merge)
 {
     Value values[block_size];
     std::fill(values, values + block_size, nothing());
@@ -89,8 +90,9 @@ PlainBody<T>::PlainBody(const ClothModel& cloth, const NodeLayout& layout)
     rates.assign(model->node_blocks.size(), L::volume_rate_of_nothing());
     cubics.assign(model->fan_blocks.size(), L::volume_cubic_of_nothing());
     for (const BodyPart& part : model->parts) {
-        records.push_back({{static_cast<T>(part.centre.x), static_cast<T>(part.centre.y), static_cast<T>(part.centre.z)},
-                           static_cast<T>(6 * part.volume)});
+        records.push_back(
+            {{static_cast<T>(part.centre.x), static_cast<T>(part.centre.y), static_cast<T>(part.centre.z)},
+             static_cast<T>(6 * part.volume)});
         volumes.push_back(records.back().volume);
     }
 }
@@ -147,7 +149,8 @@ typename PlainBody<T>::Cubic PlainBody<T>::cubic_of(const BodyPart& part) const
 template <class T>
 typename PlainBody<T>::Rate PlainBody<T>::merged(Rate* values)
 {
-    return merged_values(values, block_size, [](const Rate& a, const Rate& b) { return L::volume_rate_merge(a, b); });
+    return merged_values(values, block_size,
+                         [](const Rate& a, const Rate& b) { return L::volume_rate_merge(a, b); });
 }
 
 template <class T>
@@ -167,7 +170,8 @@ VolumeGoal PlainBody<T>::goal_of(const Call& call, const StepConstants<T>& const
 }
 
 template <class T>
-std::pair<Vector3<T>, T> PlainBody<T>::multiplier_of(const BodyPart& part, std::size_t index, const VolumeGoal& goal,
+std::pair<Vector3<T>, T> PlainBody<T>::multiplier_of(const BodyPart& part, std::size_t index,
+                                                     const VolumeGoal& goal,
                                                      const StepConstants<T>& constants) const
 {
     const Rate sums = rate_of(part);
@@ -195,14 +199,19 @@ T PlainBody<T>::correction_of(const BodyPart& part, std::size_t index, const Vol
 }
 
 template <class T>
-void PlainBody<T>::load_force(const Call& call, PlainCloth<T>& cloth, std::size_t begin, std::size_t end) const
+void PlainBody<T>::load_force(const Call& call, PlainCloth<T>& cloth, std::size_t begin,
+                              std::size_t end) const
 {
-    const auto vector = [](Vec3d a) { return Vector{static_cast<T>(a.x), static_cast<T>(a.y), static_cast<T>(a.z)}; };
+    const auto vector = [](Vec3d a) {
+        return Vector{static_cast<T>(a.x), static_cast<T>(a.y), static_cast<T>(a.z)};
+    };
     for (std::size_t k = begin; k < end; ++k) {
         const LoadedNode& load = model->loads[k];
         const std::size_t offset = cloth.layout.offset(load.node);
-        const Vector force = L::region_force(vector(load.force), vector(load.torque), cloth.position[call.parity].get(offset));
-        const bool wind = cloth.model.feels_air();  // written anew in each step, while a load's own place is only ours
+        const Vector force =
+            L::region_force(vector(load.force), vector(load.torque), cloth.position[call.parity].get(offset));
+        const bool wind =
+            cloth.model.feels_air();  // written anew in each step, while a load's own place is only ours
         cloth.external_force.set(offset, wind ? cloth.external_force.get(offset) + force : force);
     }
 }
@@ -224,8 +233,8 @@ void PlainBody<T>::ring_step(const Call& call, PlainCloth<T>& cloth, const StepC
 }
 
 template <class T>
-void PlainBody<T>::gather(const Call& call, PlainCloth<T>& cloth, const StepConstants<T>& c, std::size_t begin,
-                          std::size_t end)
+void PlainBody<T>::gather(const Call& call, PlainCloth<T>& cloth, const StepConstants<T>& c,
+                          std::size_t begin, std::size_t end)
 {
     for (std::size_t b = begin; b < end; ++b) {
         const BodyBlock& block = model->node_blocks[b];
@@ -238,7 +247,8 @@ void PlainBody<T>::gather(const Call& call, PlainCloth<T>& cloth, const StepCons
             Vector force = ring.force + cloth.external_force.get(offset);
             if (model->has_pressure) force = force + ring.gradient * pressure;
             const T w = cloth.inverse_mass[offset];
-            const Vector next = L::velocity_step(cloth.velocity[call.parity].get(offset), force, w, c.gravity, c.decay, c.dt);
+            const Vector next =
+                L::velocity_step(cloth.velocity[call.parity].get(offset), force, w, c.gravity, c.decay, c.dt);
             gradient.set(offset, ring.gradient);
             cloth.velocity[1 - call.parity].set(offset, next);
             values[k] = L::volume_rate_of(ring.gradient, next, w, weight[offset], blocked_at(offset));
@@ -310,15 +320,16 @@ void PlainBody<T>::sum_fans(const Call& call, const PlainCloth<T>& cloth, std::s
                 change = next_change;
             }
             values[k] = L::fan_cubic(sums, a - records[block.body].centre, da);
-            if (measures) values[k].first = values[k].second = values[k].third = T(0);  // without the sign of zeros
+            if (measures)
+                values[k].first = values[k].second = values[k].third = T(0);  // without the sign of zeros
         }
         cubics[b] = merged(values);
     }
 }
 
 template <class T>
-void PlainBody<T>::correct(const Call& call, PlainCloth<T>& cloth, const StepConstants<T>& c, std::size_t begin,
-                           std::size_t end)
+void PlainBody<T>::correct(const Call& call, PlainCloth<T>& cloth, const StepConstants<T>& c,
+                           std::size_t begin, std::size_t end)
 {
     Planes<T>&x = cloth.position[1 - call.parity], &v = cloth.velocity[1 - call.parity];
     std::size_t known = model->parts.size();
@@ -364,7 +375,8 @@ void PlainBody<T>::read(Resource resource, const NodeLayout& layout, std::vector
             return;
         case Resource::rate_sums:
             for (const Rate& a : rates)
-                push(a.rate, a.mobility, a.pushed.x, a.pushed.y, a.pushed.z, a.thrust.x, a.thrust.y, a.thrust.z);
+                push(a.rate, a.mobility, a.pushed.x, a.pushed.y, a.pushed.z, a.thrust.x, a.thrust.y,
+                     a.thrust.z);
             return;
         case Resource::cubic_sums:
             for (const Cubic& a : cubics)

@@ -45,8 +45,9 @@ struct StepConstants {
     T stiffness[spring_class_count]{}, damping[spring_class_count]{};
     T rest_lengths[5]{};  ///< of a sheet
 
-    T inverse_dt{};            ///< 1/s
-    std::span<const VolumeGoal> goals = {};  ///< of a body's parts, a row for each step of the frame or one for all
+    T inverse_dt{};  ///< 1/s
+    std::span<const VolumeGoal> goals =
+        {};  ///< of a body's parts, a row for each step of the frame or one for all
 
     std::span<const Vec3> attached = {};  ///< m, places of attached nodes, a row for each step of the frame
 

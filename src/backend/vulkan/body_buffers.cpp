@@ -16,7 +16,8 @@ std::uint32_t bits(double a) { return std::bit_cast<std::uint32_t>(static_cast<f
 
 }  // namespace
 
-BodyBuffers::BodyBuffers(const Device& device, const ClothModel& model) : body_(model.body ? &*model.body : nullptr)
+BodyBuffers::BodyBuffers(const Device& device, const ClothModel& model)
+    : body_(model.body ? &*model.body : nullptr)
 {
     if (!body_) return;
     const BodyModel& body = *body_;
@@ -43,7 +44,8 @@ BodyBuffers::BodyBuffers(const Device& device, const ClothModel& model) : body_(
     for (std::size_t i = 0; i < model.node_count(); ++i) push(model.neighbours.start[i], body.links[i]);
     push(model.neighbours.start.back());
     begin(4);
-    for (const Neighbour& n : model.neighbours.entries) push(n.node, bits(model.springs[n.spring].rest_length));
+    for (const Neighbour& n : model.neighbours.entries)
+        push(n.node, bits(model.springs[n.spring].rest_length));
     begin(5);
     for (const std::uint32_t start : body.fans.start) push(start);
     begin(6);
@@ -61,7 +63,8 @@ BodyBuffers::BodyBuffers(const Device& device, const ClothModel& model) : body_(
     t[13] = volumes_.first;
     t[14] = body.has_pressure ? 1 : 0;
     const auto filled = [&](const void* data, std::size_t bytes, const char* name) {
-        Buffer buffer = device.make_buffer(bytes, Usage::eStorageBuffer | Usage::eTransferSrc, Memory::device, name);
+        Buffer buffer =
+            device.make_buffer(bytes, Usage::eStorageBuffer | Usage::eTransferSrc, Memory::device, name);
         device.write(buffer, data, bytes);
         return buffer;
     };

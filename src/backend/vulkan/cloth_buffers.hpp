@@ -61,9 +61,9 @@ public:
     void bind_colliders(const Device& device, const Buffer& colliders);
     /// Where the host's rows of a frame begin.
     struct FrameRows {
-        std::uint32_t colliders = 0;               ///< in colliders, of this cloth's origin
-        std::uint32_t attached = 0;                ///< in rows of four numbers
-        std::uint32_t goals = 0, goals_stride = 0; ///< in rows of four numbers; from step to step
+        std::uint32_t colliders = 0;                ///< in colliders, of this cloth's origin
+        std::uint32_t attached = 0;                 ///< in rows of four numbers
+        std::uint32_t goals = 0, goals_stride = 0;  ///< in rows of four numbers; from step to step
     };
     void set_parameters(double step_length, std::uint32_t collider_count, bool colliders_rest,
                         const FrameRows& rows);

@@ -119,8 +119,8 @@ public:
 
     void run(const Program& program, const FrameInput& input) override
     {
-        // Colliders lie first, as each of the origins of cloths sees them; then places of attached nodes and goals of
-        // bodies, each a row of four numbers.
+        // Colliders lie first, as each of the origins of cloths sees them; then places of attached nodes and
+        // goals of bodies, each a row of four numbers.
         constexpr std::size_t rows_of_collider = sizeof(ColliderRow) / sizeof(Float4);
         const std::size_t placed = input.colliders.size();
         std::size_t rows = rows_of_collider * placed * origins_.size();
@@ -174,7 +174,8 @@ public:
             values.clear();
             for (std::size_t k = rows.first; k < all.size(); ++k) {
                 values.push_back(all[k].x);
-                if (resource != Resource::volumes) values.insert(values.end(), {all[k].y, all[k].z, all[k].w});
+                if (resource != Resource::volumes)
+                    values.insert(values.end(), {all[k].y, all[k].z, all[k].w});
             }
             return;
         }
@@ -223,15 +224,18 @@ private:
         return cloth.model().body ? cloth.model().body->parts.size() : 0;
     }
 
-    /// Writes what is wanted of a cloth's bodies from row `first` on; returns the number of rows, and from step to step.
-    std::size_t write_goals(std::size_t c, const FrameInput& input, std::size_t first, std::uint32_t& stride) const
+    /// Writes what is wanted of a cloth's bodies from row `first` on; returns the number of rows, and from
+    /// step to step.
+    std::size_t write_goals(std::size_t c, const FrameInput& input, std::size_t first,
+                            std::uint32_t& stride) const
     {
         const std::size_t parts = part_count(cloths_[c]);
         std::vector<VolumeGoal> at_start;
         std::span<const VolumeGoal> goals;
         if (!input.goals.empty()) goals = input.goals[c];
         if (parts > 0 && goals.size() < parts) {
-            for (std::size_t k = 0; k < parts; ++k) at_start.push_back(cloths_[c].model().body->goal_at(k, 0));
+            for (std::size_t k = 0; k < parts; ++k)
+                at_start.push_back(cloths_[c].model().body->goal_at(k, 0));
             goals = at_start;
         }
         stride = goals.size() > parts ? static_cast<std::uint32_t>(parts) : 0;
@@ -242,13 +246,13 @@ private:
         return goals.size();
     }
 
-    /// Of the constraint solver's passes, and of soft bodies', only when a cloth needs them: compiling them takes its
-    /// time.
+    /// Of the constraint solver's passes, and of soft bodies', only when a cloth needs them: compiling them
+    /// takes its time.
     void make_pipelines(std::span<const ClothModel> models)
     {
         const bool solved = std::any_of(models.begin(), models.end(), needs_solver);
-        const bool bodies =
-            std::any_of(models.begin(), models.end(), [](const ClothModel& model) { return model.is_body(); });
+        const bool bodies = std::any_of(models.begin(), models.end(),
+                                        [](const ClothModel& model) { return model.is_body(); });
         const auto properties =
             device_->physical()
                 .getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceFloatControlsProperties>();
