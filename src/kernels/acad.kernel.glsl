@@ -31,12 +31,13 @@ KERNEL mask is_near_threshold(real length2, real rest, mask held)
 KERNEL void sheet_limits(int o)
 {
     vec3 x = node_next_position(o);
+    bool inside = all_springs_there();
     UNROLL for (int k = 0; k < 6; ++k) {
         if (!sheet_has(k)) continue;
         vec3 d = node_next_position(o + forward_offset(k)) - x;
         mask over = acad_has_memory() ? is_overstretched(dot3(d, d), sheet_rest(k), load(plane_mark + k, o) > 0.0f)
                                       : is_beyond(dot3(d, d), sheet_rest(k) * sheet_rest(k));
-        sums[0] = sums[0] + choose(over, load(plane_scale + k, o), real(0.0f));
+        sums[0] = sums[0] + choose(over, inside ? real(1.0f) : load(plane_scale + k, o), real(0.0f));
     }
 }
 

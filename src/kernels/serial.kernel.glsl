@@ -22,6 +22,7 @@ KERNEL void solve_begin()
     set_scalar(scalar_newton, real(0.0f));
     set_scalar(scalar_iterations, real(0.0f));
     set_scalar(scalar_residual_last, real(0.0f));
+    if (idle) return;
     set_scalar(scalar_load, total(sum_load));
     set_scalar(scalar_energy, total(sum_spring_energy) + total(sum_node_energy));
     set_scalar(scalar_contact_energy, total(sum_contact_energy));
@@ -117,6 +118,13 @@ KERNEL void newton_check()
 
 KERNEL void solve_end()
 {
+    if (scalar(scalar_idle) > 0.0f) {
+        set_scalar(scalar_solves, scalar(scalar_solves) + real(1.0f));
+        set_scalar(scalar_active_last, real(0.0f));
+        set_scalar(scalar_newton_last, real(0.0f));
+        set_scalar(scalar_iterations_last, real(0.0f));
+        return;
+    }
     real newton = scalar(scalar_newton), iterations = scalar(scalar_iterations);
     real constraints = total(sum_active), residual = scalar(scalar_residual_last);
     set_scalar(scalar_solves, scalar(scalar_solves) + real(1.0f));

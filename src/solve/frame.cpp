@@ -1,5 +1,7 @@
 #include "solve/frame.hpp"
 
+#include <array>
+
 #include "solve/mass_spring.hpp"
 #include "solve/newton_multigrid.hpp"
 #include "solve/paper.hpp"
@@ -23,15 +25,26 @@ void append_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t ste
         append_constraint_step(cloth, index, step, parity, calls);
 }
 
-/// Counts for every guarded call those after it that the same scalar guards: skipping does not change it, so
-/// that a loop that has ended is left in one go.
+/// The loops of linear systems and of the line search are within Newton's: where it has ended, they have,
+/// too.
+bool ends_with(Guard outer, Guard guard)
+{
+    return guard == outer || (outer == Guard::newton && (guard == Guard::linear || guard == Guard::search));
+}
+
+/// Counts for every guarded call those after it that are skipped with it: skipping does not change what
+/// guards them, so that a loop that has ended is left in one go.
 void count_guarded(std::vector<Call>& calls)
 {
-    for (std::size_t k = calls.size(); k-- > 1;) {
-        const Call& after = calls[k];
-        Call& call = calls[k - 1];
-        if (call.guard != Guard::none && call.guard == after.guard && call.cloth == after.cloth)
-            call.guarded_after = after.guarded_after + 1;
+    constexpr std::array guards = {Guard::newton, Guard::linear, Guard::search, Guard::idle};
+    std::array<std::size_t, guards.size()> ends{};  // by guard: the first call from here that goes on
+    for (std::size_t k = calls.size(); k-- > 0;) {
+        Call& call = calls[k];
+        if (k + 1 == calls.size() || calls[k + 1].cloth != call.cloth) ends.fill(k + 1);
+        for (std::size_t g = 0; g < guards.size(); ++g) {
+            if (!ends_with(guards[g], call.guard)) ends[g] = k;
+            if (call.guard == guards[g]) call.guarded_after = static_cast<std::uint32_t>(ends[g] - k - 1);
+        }
     }
 }
 

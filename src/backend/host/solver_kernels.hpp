@@ -192,6 +192,8 @@ struct SolverKernels {
     real acad_near_below2() const { return spread(constants.acad_near_below2); }
     void set_multiplier(int o, real a) const { Lanes<T>::store(context.multiplier + o, a); }
     mask inside_level() const { return inside_; }
+    /// Whether no lane is near the border of the sheet, as far as `nodes` has said where it is.
+    bool all_springs_there() const { return all_there_; }
 
     int topology(int k) const { return context.topology[k]; }
     /// Of a mesh's edges: numbers of one edge lie together.
@@ -443,8 +445,11 @@ private:
             }
             for (int group = first; group < last; group += sum_columns)
                 self.summed(slots, part_of(row, group), group,
-                            group + sum_columns < last ? group + sum_columns : last,
-                            [&](int column) { (self.*kernel)(offset + column); });
+                            group + sum_columns < last ? group + sum_columns : last, [&](int column) {
+                                self.all_there_ = row + 2 < level.rows && column > 0 &&
+                                                  column + Lanes<T>::count + 2 <= level.columns;
+                                (self.*kernel)(offset + column);
+                            });
         }
     }
     int part_of(int row, int column) const
@@ -540,6 +545,7 @@ private:
     Number *base_, *finer_base_;
     Distance size_, finer_size_;
     mask inside_{};
+    bool all_there_ = false;
     unsigned detail_;
     bool is_cloth_, finer_is_cloth_;
 };
