@@ -271,13 +271,15 @@ private:
             jobs_->run(context.count, task, &context);
     }
 
+    /// Whether any cloth has enough for two threads.
     bool is_worth_threads() const
     {
+        const std::size_t least = threads_are_asked_for_ ? 1 : 2048;
         const auto work = [](const CpuCloth& cloth) {
             return std::max<std::size_t>(cloth.plain.model.node_count(), cloth.plain.model.springs.size());
         };
         return std::any_of(cloths_.begin(), cloths_.end(),
-                           [&](const CpuCloth& cloth) { return work(cloth) >= 2 * least_work(); });
+                           [&](const CpuCloth& cloth) { return work(cloth) >= least; });
     }
     /// Nodes or springs that make another thread worth waking: for who asks for a number of threads, hardly
     /// any.

@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
-#include <functional>
 
 #include "pliant/simulation.hpp"
 
