@@ -16,7 +16,7 @@ def row_of(name, size, reads, writes):
 
 def main():
     text = (ROOT / "src/solve/passes.def").read_text()
-    passes = re.findall(r"^PASS\((\w+), (\w+), READS\(([^)]*)\),\s*WRITES\(([^)]*)\)\)", text, re.M)
+    passes = re.findall(r"^PASS\((\w+), (\w+),\s+READS\(([^)]*)\),\s*WRITES\(([^)]*)\)\)", text, re.M)
     document = (ROOT / "docs/architecture.md").read_text()
     failures = []
     for name, size, reads, writes in passes:

@@ -145,7 +145,7 @@ std::vector<std::uint32_t> node_order(const SurfaceMesh& mesh)
     order.reserve(count);
     for (const auto& [code, vertex] : places) order.push_back(vertex);
     // Within a block its nodes lie close anyway; rings of one length fill the lanes of a pack.
-    constexpr std::uint32_t block = 256;
+    constexpr std::uint32_t block = BodyBlock::most;
     for (std::uint32_t first = 0; first < count; first += block)
         std::stable_sort(order.begin() + first, order.begin() + std::min(first + block, count),
                          [&](std::uint32_t a, std::uint32_t b) { return valence[a] > valence[b]; });
@@ -196,16 +196,18 @@ Ragged<std::uint32_t> fans_of(const Ragged<std::uint32_t>& rings)
     };
 
     std::vector<std::uint32_t> left(count);
-    std::uint32_t most = 0;
     const auto count_left = [&](std::uint32_t node) {
         return static_cast<std::uint32_t>(
             std::count(taken.begin() + rings.start[node], taken.begin() + rings.start[node + 1], false));
     };
-    for (std::uint32_t node = 0; node < count; ++node) most = std::max(most, left[node] = count_left(node));
+    for (std::uint32_t node = 0; node < count; ++node) left[node] = count_left(node);
+    const auto most_left = [&] { return left.empty() ? 0u : *std::max_element(left.begin(), left.end()); };
 
     // Greedy: always a node with the most triangles that are left; each run of them is a fan.
     std::vector<std::vector<std::uint32_t>> fans;
-    for (std::uint32_t wanted = most; wanted > 0; --wanted)
+    // `left` never says too little, so that the next number worth a sweep is the largest in it: below a node
+    // of thousands of triangles there may be none of hundreds.
+    for (std::uint32_t wanted = most_left(); wanted > 0; wanted = most_left())
         for (std::uint32_t node = 0; node < count; ++node) {
             if (left[node] < wanted) continue;
             left[node] = count_left(node);

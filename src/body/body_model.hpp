@@ -14,6 +14,7 @@ namespace pliant {
 
 /// Up to 256 nodes, or fans, of one body: what one work group sums up.
 struct BodyBlock {
+    static constexpr std::uint32_t most = 256;  ///< of count
     std::uint32_t first = 0, count = 0, body = 0;
 };
 

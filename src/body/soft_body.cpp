@@ -2,6 +2,7 @@
 // and fans.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "body/cloth_model.hpp"
 #include "body/collider_motion.hpp"
@@ -13,7 +14,7 @@ namespace {
 void append_blocks(std::vector<BodyBlock>& blocks, std::uint32_t first, std::uint32_t count,
                    std::uint32_t body)
 {
-    constexpr std::uint32_t size = 256;
+    constexpr std::uint32_t size = BodyBlock::most;
     for (std::uint32_t k = 0; k < count; k += size)
         blocks.push_back({first + k, std::min(size, count - k), body});
 }
@@ -82,7 +83,7 @@ void ClothModel::build_body(const Cloth& cloth, const Scene& scene)
     if (const auto& focus = part.options.focus) {
         for (const Vec3d p : places) {
             const double d = std::min(1.0, length_of(p - focus->centre) / focus->radius);
-            body->weights.push_back(static_cast<float>(0.5 * (std::cos(M_PI * d) + 1)));
+            body->weights.push_back(static_cast<float>(0.5 * (std::cos(std::numbers::pi * d) + 1)));
         }
     } else if (!part.options.weights.empty()) {
         for (const std::uint32_t vertex : order) body->weights.push_back(part.options.weights[vertex]);

@@ -1,5 +1,6 @@
-// STL, OFF and glTF, read by assimp; the only file that knows it. Assimp believes what a file claims, so its
-// counts are held against its size before, and what came out is checked after.
+// STL, OFF and glTF, read by assimp; the only file that knows it. Assimp believes what a file claims, so the
+// counts of STL and OFF are held against the file before; of a binary glTF file only the lengths in its frame
+// are, of a .gltf nothing. What came out is checked after.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -155,7 +155,8 @@ SurfaceMesh implicit_surface_mesh(const char* name, Field field, const Bounds& b
         mesh = SurfaceNet(field, bounds, spacing).build();
     }
     throw Error(ErrorKind::bad_input, std::string(name) + " is " + std::to_string(vertex_count) +
-                                          ", too few for the thin parts of the shape; ask for more");
+                                          ", but no closed mesh of about so many vertices was found; ask for another number, a "
+                                          "larger one where the shape has thin parts");
 }
 
 }  // namespace pliant

@@ -18,7 +18,7 @@ struct Bounds {
 
 /// The zero surface of a field whose inside lies within the bounds, with about the number of vertices asked
 /// for (within 5 %): closed, without a handle, in one component, facing outward. Throws Error(bad_input) that
-/// begins with `name` when the number is too small for such a surface. The same in every run.
+/// begins with `name` when no such surface is found, as where the number is too small. The same in every run.
 SurfaceMesh implicit_surface_mesh(const char* name, Field field, const Bounds& bounds,
                                   std::uint32_t vertex_count);
 

@@ -607,22 +607,28 @@ std::string Simulation::resolution_warning() const
 {
     constexpr double half_ulp = 0x1p-24, noticeable = 1e-3;  // of a rest length
     for (std::size_t c = 0; c < implementation_->places.size(); ++c) {
-        const ClothModel& model = implementation_->models[implementation_->places[c].model];
+        const auto& place = implementation_->places[c];
+        const ClothModel& model = implementation_->models[place.model];
         double farthest = 0;
-        for (const Vec3& x : model.positions)
+        for (const Vec3& x : std::span(model.positions).subspan(place.first_node, place.node_count))
             farthest =
                 std::max({farthest, std::abs(double{x.x}), std::abs(double{x.y}), std::abs(double{x.z})});
         const double shortest = model.shortest_rest_length();
         if (farthest * half_ulp > noticeable * shortest) {
             char text[256];
-            std::snprintf(
-                text, sizeof text,
-                "at %.3g m from the origin single precision rounds positions by %.2g m, which is more than a "
-                "thousandth of the shortest spring of %.3g m: move the cloth nearer to the origin, or use "
-                "fewer "
-                "nodes",
-                farthest, farthest * half_ulp, shortest);
-            return "cloth '" + scene().cloth(c).name + "': " + text;
+            std::snprintf(text, sizeof text,
+                          " single precision rounds positions by %.2g m, which is more than a thousandth of "
+                          "the shortest spring of %.3g m: ",
+                          farthest * half_ulp, shortest);
+            char distance[64];
+            std::snprintf(distance, sizeof distance, "at %.3g m from ", farthest);
+            const std::string& name = scene().cloth(c).name;
+            // The coordinates of a body begin near its middle, wherever it is.
+            if (model.is_body())
+                return "body '" + name + "': " + distance + "its middle" + text +
+                       "use a mesh without edges as short as that";
+            return "cloth '" + name + "': " + distance + "the origin" + text +
+                   "move the cloth nearer to the origin, or use fewer nodes";
         }
     }
     return {};

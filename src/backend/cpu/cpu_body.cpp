@@ -5,14 +5,12 @@
 #include <utility>
 
 #include "backend/cpu/jobs.hpp"
+#include "backend/cpu/pointers.hpp"
 
 namespace pliant::cpu {
 namespace {
 
 using L = Laws<float>;
-
-ConstVectors pointers(const Planes<float>& a) { return {a.x.data(), a.y.data(), a.z.data()}; }
-Vectors pointers(Planes<float>& a) { return {a.x.data(), a.y.data(), a.z.data()}; }
 
 /// The lanes of a block, in their order.
 template <class Value, class Merge>
@@ -39,7 +37,7 @@ CpuBody::SliceArrays CpuBody::sliced(const std::vector<BodyBlock>& blocks, const
     SliceArrays slices;
     std::vector<std::vector<Entry>> rows(Slices::lanes);
     for (const BodyBlock& block : blocks)
-        for (std::uint32_t first = 0; first < 256; first += Slices::lanes) {
+        for (std::uint32_t first = 0; first < block_size; first += Slices::lanes) {
             std::size_t longest = 0;
             for (std::uint32_t lane = 0; lane < Slices::lanes; ++lane) {
                 rows[lane] =
@@ -93,7 +91,7 @@ std::size_t CpuBody::size_of(const Call& call) const
 {
     const bool fans = call.pass == Pass::volume_cubic || call.pass == Pass::volume_measure;
     const SliceArrays& slices = fans ? fans_ : ring_;
-    return (slices.start.size() - 1) / (256 / Slices::lanes);
+    return (slices.start.size() - 1) / (block_size / Slices::lanes);
 }
 
 void CpuBody::prepare(const Call& call, PlainCloth<float>& cloth, const StepConstants<float>& constants)

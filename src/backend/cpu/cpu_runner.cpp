@@ -8,6 +8,7 @@
 #include "backend/cpu/cpu_body.hpp"
 #include "backend/cpu/jobs.hpp"
 #include "backend/cpu/kernels.hpp"
+#include "backend/cpu/pointers.hpp"
 #include "backend/cpu/team.hpp"
 #include "backend/host/plain_cloth.hpp"
 #include "backend/host/solver_state.hpp"
@@ -17,6 +18,7 @@ namespace pliant {
 namespace {
 
 using cpu::Kernels;
+using cpu::pointers;
 
 constexpr std::size_t spring_pack = 16;  ///< springs are divided and padded in whole packs of the widest kind
 
@@ -44,9 +46,6 @@ struct SpringArrays {
         for (auto* numbers : {&rest_length, &stiffness, &damping}) numbers->resize(size, 0.0f);
     }
 };
-
-cpu::ConstVectors pointers(const Planes<float>& a) { return {a.x.data(), a.y.data(), a.z.data()}; }
-cpu::Vectors pointers(Planes<float>& a) { return {a.x.data(), a.y.data(), a.z.data()}; }
 
 struct CpuCloth {
     explicit CpuCloth(const ClothModel& model)

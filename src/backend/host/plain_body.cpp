@@ -8,6 +8,8 @@
 namespace pliant {
 namespace {
 
+static_assert(BodyBlock::most == block_size, "a block is what one work group sums up");
+
 /// Sum of the forces of a node's springs, and its gradient, in the order of the ring.
 template <class T>
 struct RingSums {

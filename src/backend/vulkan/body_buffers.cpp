@@ -21,7 +21,6 @@ BodyBuffers::BodyBuffers(const Device& device, const ClothModel& model)
 {
     if (!body_) return;
     const BodyModel& body = *body_;
-    node_count_ = model.node_count();
     const auto size = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };
     rate_sums_ = {0, 2 * size(body.node_blocks)};
     cubic_sums_ = {rate_sums_.count, 2 * size(body.fan_blocks)};
@@ -89,7 +88,6 @@ std::uint32_t BodyBuffers::groups_of(const Call& call) const
     const auto groups = [](std::size_t n) { return static_cast<std::uint32_t>((n + 63) / 64); };
     switch (call.pass) {
         case Pass::load_force: return groups(body_->loads.size());
-        case Pass::ring_step: return groups(node_count_);
         case Pass::volume_cubic:
         case Pass::volume_measure: return static_cast<std::uint32_t>(body_->fan_blocks.size());
         case Pass::volume_total: return static_cast<std::uint32_t>(body_->parts.size());

@@ -34,7 +34,6 @@ public:
 
 private:
     const BodyModel* body_ = nullptr;
-    std::uint32_t node_count_ = 0;
     Rows rate_sums_, cubic_sums_, records_, volumes_;
     Buffer topology_, gradient_, direction_, blocked_, sums_, read_volumes_;
 };

@@ -11,8 +11,7 @@ using Usage = vk::BufferUsageFlagBits;
 
 vk::DescriptorType type_of(Binding binding)
 {
-    return binding == Binding::parameters || binding == Binding::solver ? vk::DescriptorType::eUniformBuffer
-                                                                        : vk::DescriptorType::eStorageBuffer;
+    return is_uniform(binding) ? vk::DescriptorType::eUniformBuffer : vk::DescriptorType::eStorageBuffer;
 }
 
 struct Float4 {

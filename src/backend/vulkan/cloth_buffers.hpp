@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "backend/host/plain_cloth.hpp"
+#include "backend/vulkan/bindings.hpp"
 #include "backend/vulkan/body_buffers.hpp"
 #include "backend/vulkan/device.hpp"
 #include "backend/vulkan/solver_buffers.hpp"
@@ -14,40 +15,6 @@
 #include "solve/pass.hpp"
 
 namespace pliant::vulkan {
-
-/// Bindings of shaders/*.glsl.
-enum class Binding : std::uint32_t {
-    parameters = 0,
-    position_in = 1,
-    velocity_in = 2,
-    position_out = 3,
-    velocity_out = 4,
-    external_force = 5,
-    colliders = 6,
-    springs = 7,
-    spring_rest_class = 8,
-    neighbour_start = 9,
-    neighbours = 10,
-    triangles = 11,
-    triangle_start = 12,
-    node_triangles = 13,
-    spring_force = 14,
-    normal = 15,
-    strain = 16,
-    measures = 17,
-    solver = 18,
-    solver_arena = 19,
-    solver_scalars = 20,
-    solver_parts = 21,
-    solver_topology = 22,
-    multiplier = 23,
-    body_topology = 24,
-    gradient = 25,
-    direction = 26,
-    blocked = 27,
-    body_sums = 28,
-};
-constexpr std::uint32_t binding_count = 29;
 
 vk::raii::DescriptorSetLayout make_cloth_layout(const Device& device);
 

@@ -4,7 +4,9 @@
 #include <cstdio>
 #include <cstring>
 
+#include "backend/vulkan/bindings.hpp"
 #include "pliant/error.hpp"
+#include "solve/pass.hpp"
 
 namespace pliant::vulkan {
 namespace {
@@ -43,13 +45,13 @@ int best_queue_family(const vk::raii::PhysicalDevice& physical)
     return compute;
 }
 
-/// Version, queue, and the limits that the compute passes need (cloth_buffers.hpp, shaders/measure.glsl).
+/// Version, queue, and the limits that the compute passes need (bindings.hpp, shaders/measure.glsl).
 bool usable(const vk::raii::PhysicalDevice& physical)
 {
-    constexpr std::uint32_t storage_buffers = 22, invocations = 256, shared_memory = 256 * 32;
+    constexpr std::uint32_t invocations = block_size, shared_memory = block_size * 32;
     const auto properties = physical.getProperties();
     return properties.apiVersion >= api_version && best_queue_family(physical) >= 0 &&
-           properties.limits.maxPerStageDescriptorStorageBuffers >= storage_buffers &&
+           properties.limits.maxPerStageDescriptorStorageBuffers >= storage_buffer_count() &&
            properties.limits.maxComputeWorkGroupInvocations >= invocations &&
            properties.limits.maxComputeSharedMemorySize >= shared_memory;
 }

@@ -379,7 +379,7 @@ private:
             if (is_solver_pass(call.pass)) solved.insert(call.cloth);
             if (call.pass == Pass::volume_total) volumes.insert(call.cloth);
         }
-        if (!measured.empty() || !solved.empty()) {
+        if (!measured.empty() || !volumes.empty() || !solved.empty()) {
             barrier(commands, vk::PipelineStageFlagBits::eComputeShader, vk::AccessFlagBits::eShaderWrite,
                     vk::PipelineStageFlagBits::eTransfer, vk::AccessFlagBits::eTransferRead);
             for (const std::uint32_t cloth : measured) cloths_[cloth].record_root_copy(commands);

@@ -1,26 +1,16 @@
 #version 460
-// One step of a soft body by its springs alone, gathered node by node.
+// One step of a soft body by its springs alone, gathered node by node; a work group has a block, and so one body.
 #extension GL_GOOGLE_include_directive : require
 #include "ring.glsl"
 #include "step.glsl"
 
-layout(local_size_x = 64) in;
-
-// The body of a node: blocks are in order of nodes.
-uint body_of(uint node)
-{
-    uint k = 0u;
-    while (true) {
-        BodyBlock block = block_at(node_blocks_at, k);
-        if (node < block.first + block.count) return block.body;
-        ++k;
-    }
-}
+layout(local_size_x = 256) in;
 
 void main()
 {
-    uint node = gl_GlobalInvocationID.x;
-    if (node >= parameters.node_count) return;
+    BodyBlock block = block_at(node_blocks_at, gl_WorkGroupID.x);
+    if (gl_LocalInvocationID.x >= block.count) return;
+    uint node = block.first + gl_LocalInvocationID.x;
     RingSums sums = ring_sums(node);
     precise vec3 force = sums.force;
     if (body_topology[pressure_at] == 0u) {
@@ -28,6 +18,6 @@ void main()
         return;
     }
     if (parameters.has_air != 0u) force = force + external_force[node].xyz;
-    force = force + sums.gradient * goal_of(body_of(node)).y;
+    force = force + sums.gradient * goal_of(block.body).y;
     finish_step_of(node, force);
 }

@@ -1,0 +1,12 @@
+// Planes of vectors as the kernels take them.
+#pragma once
+
+#include "backend/cpu/kernels.hpp"
+#include "backend/host/planes.hpp"
+
+namespace pliant::cpu {
+
+inline ConstVectors pointers(const Planes<float>& a) { return {a.x.data(), a.y.data(), a.z.data()}; }
+inline Vectors pointers(Planes<float>& a) { return {a.x.data(), a.y.data(), a.z.data()}; }
+
+}  // namespace pliant::cpu
