@@ -3,7 +3,6 @@
 // rounding.
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -12,6 +11,7 @@
 #include "backend/cpu/kernels.hpp"
 #include "pliant/mesh_generators.hpp"
 #include "solve/frame.hpp"
+#include "test_bits.hpp"
 #include "test_runners.hpp"
 
 namespace pliant {
@@ -130,21 +130,6 @@ Results results_of(PassRunner& runner, const ClothModel& model, const Scene& sce
     return results;
 }
 
-void expect_same_bits(const Results& a, const Results& b, const std::string& who)
-{
-    for (const auto& [resource, values] : a) {
-        const auto& others = b.at(resource);
-        ASSERT_EQ(values.size(), others.size()) << who << ": resource " << static_cast<int>(resource);
-        std::size_t differing = 0, first = 0;
-        for (std::size_t i = 0; i < values.size(); ++i)
-            if (std::bit_cast<std::uint32_t>(values[i]) != std::bit_cast<std::uint32_t>(others[i]) &&
-                differing++ == 0)
-                first = i;
-        EXPECT_EQ(differing, 0u) << who << ": resource " << static_cast<int>(resource) << " differs first at "
-                                 << first << ": " << values[first] << " and " << others[first];
-    }
-}
-
 class BodyPassParity : public testing::TestWithParam<BodyCase> {};
 
 TEST_P(BodyPassParity, AllBackendsAgree)
@@ -159,11 +144,11 @@ TEST_P(BodyPassParity, AllBackendsAgree)
         for (const unsigned threads : {1u, 2u, 3u, 7u}) {
             options.threads = threads;
             options.instruction_set = kernels->name;
-            expect_same_bits(expected, results_of(*make_cpu_runner({&model, 1}, options), model, scene),
-                             std::string(kernels->name) + ", threads " + std::to_string(threads));
+            test::expect_same_bits(expected, results_of(*make_cpu_runner({&model, 1}, options), model, scene),
+                                   std::string(kernels->name) + ", threads " + std::to_string(threads));
         }
-    expect_same_bits(expected, results_of(*test::make_runner(Backend::vulkan, model), model, scene),
-                     "vulkan");
+    test::expect_same_bits(expected, results_of(*test::make_runner(Backend::vulkan, model), model, scene),
+                           "vulkan");
 
     // Against the reference: forces of up to 40 springs of 1,000 N/m, each off by its stiffness times the
     // rounding of positions of up to 1 m, on the lightest node, for two steps; and as much again for
@@ -220,7 +205,7 @@ TEST(BodyFormulations, GatheringAndTheSpringListGiveTheSameBits)
         const ClothModel model = shaken_model(scene);
         results[list] = results_of(*make_cpu_runner({&model, 1}, {}), model, scene);
     }
-    expect_same_bits(results[0], results[1], "spring list");
+    test::expect_same_bits(results[0], results[1], "spring list");
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "backend/vulkan/vulkan_runner.hpp"
 #include "solve/frame.hpp"
 #include "solve/mass_spring.hpp"
+#include "test_bits.hpp"
 #include "test_cloths.hpp"
 
 namespace pliant {
@@ -103,22 +104,6 @@ std::map<Resource, std::vector<float>> results_of(PassRunner& runner, const Clot
     return results;
 }
 
-void expect_same_bits(const std::map<Resource, std::vector<float>>& a,
-                      const std::map<Resource, std::vector<float>>& b, const std::string& who)
-{
-    for (const auto& [resource, values] : a) {
-        const auto& others = b.at(resource);
-        ASSERT_EQ(values.size(), others.size()) << who;
-        std::size_t differing = 0, first = 0;
-        for (std::size_t i = 0; i < values.size(); ++i)
-            if (std::bit_cast<std::uint32_t>(values[i]) != std::bit_cast<std::uint32_t>(others[i]) &&
-                differing++ == 0)
-                first = i;
-        EXPECT_EQ(differing, 0u) << who << ": resource " << static_cast<int>(resource) << " differs first at "
-                                 << first << ": " << values[first] << " and " << others[first];
-    }
-}
-
 class PassParity : public testing::TestWithParam<PassCase> {};
 
 TEST_P(PassParity, AllBackendsAgree)
@@ -137,13 +122,14 @@ TEST_P(PassParity, AllBackendsAgree)
         for (const unsigned threads : {1u, 2u, 3u, 7u}) {
             options.threads = threads;
             options.instruction_set = kernels->name;
-            expect_same_bits(expected, results_of(*make_cpu_runner({&model, 1}, options), model, colliders),
-                             std::string(kernels->name) + ", " + std::to_string(threads) + " threads");
+            test::expect_same_bits(expected,
+                                   results_of(*make_cpu_runner({&model, 1}, options), model, colliders),
+                                   std::string(kernels->name) + ", " + std::to_string(threads) + " threads");
         }
 
     SimulationOptions vulkan = test::on(Backend::vulkan);
     const auto runner = make_vulkan_runner({&model, 1}, vulkan);
-    expect_same_bits(expected, results_of(*runner, model, colliders), "vulkan");
+    test::expect_same_bits(expected, results_of(*runner, model, colliders), "vulkan");
     EXPECT_EQ(runner->validation_messages(), 0u);
 
     // The reference, to the rounding of some dozen operations; forces against the size of what cancels in
@@ -270,9 +256,9 @@ TEST(Denormals, NeverReachTheState)
     for (std::size_t i = 0; i < model.velocities.size(); ++i)
         model.velocities[i] = {3e-39f, static_cast<float>(i) * 1e-38f, 1e-5f};
     const auto expected = results_of(*make_cpu_runner({&model, 1}, {}), model, {});
-    expect_same_bits(expected,
-                     results_of(*make_vulkan_runner({&model, 1}, test::on(Backend::vulkan)), model, {}),
-                     "vulkan");
+    test::expect_same_bits(expected,
+                           results_of(*make_vulkan_runner({&model, 1}, test::on(Backend::vulkan)), model, {}),
+                           "vulkan");
     EXPECT_EQ(expected.at(Resource::velocity)[0], 0.0f);
     EXPECT_NE(expected.at(Resource::velocity)[2], 0.0f);
 }
