@@ -3,22 +3,7 @@
 // The cubic of the exact correction, summed up.
 #include "body_sums.glsl"
 
-shared VolumeCubic cubic_values[256], cubic_lanes[16];
-
-VolumeCubic merged_cubic(VolumeCubic value)
-{
-    uint k = gl_LocalInvocationID.x;
-    cubic_values[k] = value;
-    barrier();
-    if (k < 16u) {
-        for (uint j = 1u; j < 16u; ++j) value = volume_cubic_merge(value, cubic_values[k + 16u * j]);
-        cubic_lanes[k] = value;
-    }
-    barrier();
-    value = cubic_lanes[0];
-    for (uint j = 1u; j < 16u; ++j) value = volume_cubic_merge(value, cubic_lanes[j]);
-    return value;
-}
+MERGED_IN_GROUP(VolumeCubic, merged_cubic, cubic_values, cubic_lanes, volume_cubic_merge)
 
 VolumeCubic cubic_of_block(uint block)
 {

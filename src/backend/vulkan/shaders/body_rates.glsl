@@ -3,22 +3,7 @@
 // Both sides of eq. (14), summed up.
 #include "body_sums.glsl"
 
-shared VolumeRate rate_values[256], rate_lanes[16];
-
-VolumeRate merged_rate(VolumeRate value)
-{
-    uint k = gl_LocalInvocationID.x;
-    rate_values[k] = value;
-    barrier();
-    if (k < 16u) {
-        for (uint j = 1u; j < 16u; ++j) value = volume_rate_merge(value, rate_values[k + 16u * j]);
-        rate_lanes[k] = value;
-    }
-    barrier();
-    value = rate_lanes[0];
-    for (uint j = 1u; j < 16u; ++j) value = volume_rate_merge(value, rate_lanes[j]);
-    return value;
-}
+MERGED_IN_GROUP(VolumeRate, merged_rate, rate_values, rate_lanes, volume_rate_merge)
 
 VolumeRate rate_of_block(uint block)
 {

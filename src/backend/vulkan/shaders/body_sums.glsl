@@ -12,4 +12,22 @@ layout(set = 0, binding = 28, std430) BODY_SUMS_ACCESS buffer BodySums { vec4 bo
 
 // Of a body: xyz its centre, w 6 V.
 vec4 record_of(uint body) { return body_sums[body_topology[records_at] + body]; }
+
+// What the 256 invocations of a group hold, merged by the fixed tree: every 16th value in a lane, then the lanes in order.
+#define MERGED_IN_GROUP(Type, name, values, lanes, merge)                            \
+    shared Type values[256], lanes[16];                                              \
+    Type name(Type value)                                                            \
+    {                                                                                \
+        uint k = gl_LocalInvocationID.x;                                             \
+        values[k] = value;                                                           \
+        barrier();                                                                   \
+        if (k < 16u) {                                                               \
+            for (uint j = 1u; j < 16u; ++j) value = merge(value, values[k + 16u * j]); \
+            lanes[k] = value;                                                        \
+        }                                                                            \
+        barrier();                                                                   \
+        value = lanes[0];                                                            \
+        for (uint j = 1u; j < 16u; ++j) value = merge(value, lanes[j]);              \
+        return value;                                                                \
+    }
 #endif
