@@ -6,7 +6,6 @@
 #include <bit>
 #include <cmath>
 #include <map>
-#include <random>
 
 #include "backend/cpu/kernels.hpp"
 #include "backend/pass_runner.hpp"
@@ -15,6 +14,7 @@
 #include "solve/mass_spring.hpp"
 #include "test_bits.hpp"
 #include "test_cloths.hpp"
+#include "test_runners.hpp"
 
 namespace pliant {
 namespace {
@@ -64,22 +64,6 @@ Scene scene_of(const PassCase& c)
     return scene;
 }
 
-/// A cloth whose nodes are shaken, so that springs are stretched and moving.
-ClothModel shaken_model(const Scene& scene)
-{
-    ClothModel model(scene.cloth(0), scene);
-    std::mt19937 engine(11);
-    std::uniform_real_distribution<float> unit(-1, 1);
-    const double length = model.sheet ? model.sheet->rest_lengths[0] : model.springs.front().rest_length;
-    const float shake = 0.1f * static_cast<float>(length);
-    for (std::size_t i = 0; i < model.positions.size(); ++i) {
-        Vec3& x = model.positions[i];
-        x = {x.x + shake * unit(engine), x.y + shake * unit(engine), x.z + shake * unit(engine)};
-        if (model.inverse_masses[i] > 0) model.velocities[i] = {unit(engine), unit(engine), unit(engine)};
-    }
-    return model;
-}
-
 /// Everything a cloth's program computes, one step from the same state.
 std::map<Resource, std::vector<float>> results_of(PassRunner& runner, const ClothModel& model,
                                                   std::span<const PlacedCollider> colliders)
@@ -109,7 +93,7 @@ class PassParity : public testing::TestWithParam<PassCase> {};
 TEST_P(PassParity, AllBackendsAgree)
 {
     const Scene scene = scene_of(GetParam());
-    const ClothModel model = shaken_model(scene);
+    const ClothModel model = test::shaken_model(scene);
     std::vector<PlacedCollider> colliders;
     for (const Collider& collider : scene.colliders) colliders.push_back(placed_at(collider, 0.5));
 
@@ -215,7 +199,7 @@ TEST(Formulations, NodeCentricAndSpringListGiveTheSameBits)
         std::vector<float> velocities[2];
         for (const bool list : {false, true}) {
             const Scene scene = scene_of({"", rows, columns, false, list});
-            const ClothModel model = shaken_model(scene);
+            const ClothModel model = test::shaken_model(scene);
             auto results = results_of(*make_cpu_runner({&model, 1}, {}), model, {});
             velocities[list] = results[Resource::velocity];
         }

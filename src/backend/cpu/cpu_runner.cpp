@@ -9,6 +9,7 @@
 #include "backend/cpu/jobs.hpp"
 #include "backend/cpu/kernels.hpp"
 #include "backend/cpu/pointers.hpp"
+#include "backend/cpu/sheet_steps.hpp"
 #include "backend/cpu/team.hpp"
 #include "backend/host/plain_cloth.hpp"
 #include "backend/host/solver_state.hpp"
@@ -48,8 +49,12 @@ struct SpringArrays {
 };
 
 struct CpuCloth {
-    explicit CpuCloth(const ClothModel& model)
-        : plain(model), springs(model, plain.layout), solver(model, model.hierarchy), body(plain)
+    CpuCloth(const ClothModel& model, std::size_t most_parts)
+        : plain(model),
+          springs(model, plain.layout),
+          solver(model, model.hierarchy),
+          body(plain),
+          sheet(plain.layout, model.is_sheet() ? most_parts : 0)
     {
         plain.spring_force = Planes<float>(springs.first.size());
     }
@@ -57,11 +62,12 @@ struct CpuCloth {
     SpringArrays springs;
     SolverState<float> solver;
     cpu::CpuBody body;
+    cpu::SheetSteps sheet;
 };
 
 /// One call with all it needs; `part` runs a piece of it.
 struct Work {
-    enum class Unit { rows, springs, values, solver, single, body } unit = Unit::values;
+    enum class Unit { rows, springs, measures, values, solver, single, body } unit = Unit::values;
     std::size_t size = 0;      ///< in units
     std::size_t multiple = 1;  ///< parts begin at multiples of this
     std::size_t weight = 1;    ///< nodes or springs in a unit, for the decision how many threads are worth it
@@ -89,7 +95,7 @@ struct Work {
             size = cloth->body.size_of(c);
             weight = block_size;
             cloth->body.prepare(c, plain, values);
-        } else if (call->pass == Pass::sheet_step || call->pass == Pass::sheet_wind) {
+        } else if (call->pass == Pass::sheet_wind) {
             unit = Unit::rows;
             size = plain.layout.rows;
             weight = plain.layout.columns;
@@ -99,16 +105,10 @@ struct Work {
             multiple = spring_pack;
         } else {
             size = plain.size_of(*call);
+            if (call->pass == Pass::sheet_measure) unit = Unit::measures;
             const PassSize pass_size = description_of(call->pass).size;
             if (pass_size == PassSize::block || pass_size == PassSize::fan) weight = block_size;
         }
-    }
-
-    std::size_t part_count(std::size_t threads, std::size_t least_work) const
-    {
-        const std::size_t worthwhile = std::max<std::size_t>(1, size * weight / least_work);
-        return std::min<std::size_t>(
-            {threads, worthwhile, std::max<std::size_t>(1, size / multiple), cpu::Team::most_parts});
     }
 
     void part(std::size_t index, std::size_t count) const
@@ -121,6 +121,8 @@ struct Work {
             rows(begin, end);
         else if (unit == Unit::springs)
             springs(begin, end);
+        else if (unit == Unit::measures)
+            measures(begin, end);
         else if (unit == Unit::solver)
             kernels->solve(*solver, *call, static_cast<int>(begin), static_cast<int>(end));
         else if (unit == Unit::body)
@@ -135,21 +137,32 @@ private:
     void rows(std::size_t begin, std::size_t end) const
     {
         PlainCloth<float>& plain = cloth->plain;
-        const std::uint32_t now = call->parity, next = 1 - now;
-        cpu::SheetArguments arguments;
+        cpu::SheetArguments arguments{};
         arguments.layout = &plain.layout;
-        arguments.position = pointers(std::as_const(plain.position[now]));
-        arguments.velocity = pointers(std::as_const(plain.velocity[now]));
-        arguments.next_position = pointers(plain.position[next]);
-        arguments.next_velocity = pointers(plain.velocity[next]);
-        arguments.external_force = plain.model.feels_air() ? pointers(std::as_const(plain.external_force))
-                                                           : cpu::ConstVectors{nullptr, nullptr, nullptr};
+        arguments.position = pointers(std::as_const(plain.position[call->parity]));
+        arguments.velocity = pointers(std::as_const(plain.velocity[call->parity]));
         arguments.wind_force = pointers(plain.external_force);
+        arguments.constants = constants;
+        kernels->sheet_wind(arguments, begin, end);
+    }
+
+    void measures(std::size_t begin, std::size_t end) const
+    {
+        PlainCloth<float>& plain = cloth->plain;
+        using Measure = Laws<float>::Measure;
+        static_assert(sizeof(Measure) == 8 * sizeof(float));
+        cpu::MeasureArguments arguments{};
+        arguments.layout = &plain.layout;
+        arguments.position = pointers(std::as_const(plain.position[call->parity]));
+        arguments.velocity = pointers(std::as_const(plain.velocity[call->parity]));
         arguments.inverse_mass = plain.inverse_mass.data();
+        arguments.masses = plain.model.masses.data();
+        arguments.node_count = plain.model.node_count();
         arguments.constants = constants;
         arguments.colliders = colliders.data();
         arguments.collider_count = colliders.size();
-        (call->pass == Pass::sheet_step ? kernels->sheet_step : kernels->sheet_wind)(arguments, begin, end);
+        arguments.measures = &plain.measures.data()->max_stretch;
+        kernels->sheet_measure(arguments, begin, end);
     }
 
     void springs(std::size_t begin, std::size_t end) const
@@ -177,7 +190,7 @@ public:
         }
         cloths_.reserve(models.size());
         for (const ClothModel& model : models) {
-            cloths_.emplace_back(model);
+            cloths_.emplace_back(model, std::min<std::size_t>(thread_count(), cpu::Team::most_parts));
             constants_.emplace_back(model, 0.0);
             solver_constants_.push_back(make_solver_constants<float>(model, 0.0));
         }
@@ -226,8 +239,7 @@ public:
 private:
     void run_calls(const Program& program, const FrameInput& input)
     {
-        std::uint32_t known_index = ~0u;
-        Vec3d known_origin;
+        colliders_known_ = false;
         auto time = std::chrono::steady_clock::now();
         for (std::size_t k = 0; k < program.calls.size(); ++k) {
             const Call& call = program.calls[k];
@@ -236,38 +248,84 @@ private:
                 k += call.guarded_after;
                 continue;
             }
-            const Vec3d origin = cloth.plain.model.origin;
-            if (call.index != known_index || origin != known_origin) {
-                colliders_.clear();
-                for (const PlacedCollider& placed : input.colliders_at(call.index))
-                    colliders_.push_back(make_collider<float>(seen_from(placed, origin)));
-                known_index = call.index;
-                known_origin = origin;
+            std::size_t calls = 1;
+            if (call.pass == Pass::sheet_step) {
+                calls = run_sheet_steps(program, k, input);
+                k += calls - 1;
+            } else {
+                place_colliders(call, cloth.plain.model.origin, input);
+                Work work(call, cloth, kernels_, constants_[call.cloth], solver_constants_[call.cloth],
+                          colliders_);
+                run(work);
             }
-            Work work(call, cloth, kernels_, constants_[call.cloth], solver_constants_[call.cloth],
-                      colliders_);
-            run(work);
             const auto now = std::chrono::steady_clock::now();
-            clock_.add(call.pass, std::chrono::duration<double, std::milli>(now - time).count());
+            clock_.add(call.pass, std::chrono::duration<double, std::milli>(now - time).count(), calls);
             time = now;
         }
     }
 
+    void place_colliders(const Call& call, Vec3d origin, const FrameInput& input)
+    {
+        if (colliders_known_ && call.index == known_index_ && origin == known_origin_) return;
+        colliders_.clear();
+        for (const PlacedCollider& placed : input.colliders_at(call.index))
+            colliders_.push_back(make_collider<float>(seen_from(placed, origin)));
+        colliders_known_ = true;
+        known_index_ = call.index;
+        known_origin_ = origin;
+    }
+
+    /// The step at `first`, and with it those that follow without anything between them; returns their
+    /// number.
+    std::size_t run_sheet_steps(const Program& program, std::size_t first, const FrameInput& input)
+    {
+        const Call& call = program.calls[first];
+        CpuCloth& cloth = cloths_[call.cloth];
+        const NodeLayout& layout = cloth.plain.layout;
+        const std::size_t parts = part_count(layout.rows, layout.columns);
+        const std::size_t most = cpu::SheetSteps::most_steps(layout.rows, parts);
+        cloth.sheet.begin();
+        for (std::size_t k = first; k < program.calls.size() && cloth.sheet.count() < most; ++k) {
+            const Call& next = program.calls[k];
+            if (next.pass != call.pass || next.cloth != call.cloth || next.guard != call.guard) break;
+            place_colliders(next, cloth.plain.model.origin, input);
+            cloth.sheet.add(cloth.plain, next.parity, constants_[call.cloth], colliders_);
+        }
+        for (unsigned phase = 0; phase < 2; ++phase) {
+            if (phase == 1 && cloth.sheet.count() == 1) break;
+            run_parts(parts - phase, [&](std::size_t index) {
+                const cpu::DenormalsFlushed flushed;
+                cloth.sheet.part(kernels_, phase, index, parts);
+            });
+        }
+        return cloth.sheet.count();
+    }
+
+    std::size_t part_count(std::size_t size, std::size_t weight) const
+    {
+        const std::size_t worthwhile = std::max<std::size_t>(1, size * weight / least_work());
+        return std::min<std::size_t>(
+            {thread_count(), worthwhile, std::max<std::size_t>(1, size), cpu::Team::most_parts});
+    }
+
     void run(const Work& work)
     {
-        struct Context {
-            const Work& work;
-            unsigned count;
-        } context{work, static_cast<unsigned>(work.part_count(thread_count(), least_work()))};
-        if (context.count == 1) return work.part(0, 1);
-        const auto task = [](void* pointer, unsigned index) {
-            const auto& shared = *static_cast<const Context*>(pointer);
-            shared.work.part(index, shared.count);
-        };
+        const std::size_t count = part_count(work.size / work.multiple, work.multiple * work.weight);
+        run_parts(count, [&](std::size_t index) { work.part(index, count); });
+    }
+
+    /// part(0) ... part(count - 1), by the threads that there are.
+    template <class Part>
+    void run_parts(std::size_t count, const Part& part)
+    {
+        if (count == 0) return;  // no gaps: one part had all
+        if (count == 1) return part(0);
+        const auto task = [](void* pointer, unsigned index) { (*static_cast<const Part*>(pointer))(index); };
+        void* context = const_cast<Part*>(&part);
         if (together_)
-            team_.run(context.count, task, &context);
+            team_.run(static_cast<unsigned>(count), task, context);
         else
-            jobs_->run(context.count, task, &context);
+            jobs_->run(static_cast<unsigned>(count), task, context);
     }
 
     /// Whether any cloth has enough for two threads.
@@ -293,7 +351,10 @@ private:
     std::vector<CpuCloth> cloths_;
     std::vector<StepConstants<float>> constants_;
     std::vector<SolverConstants<float>> solver_constants_;
-    std::vector<Laws<float>::Collider> colliders_;
+    std::vector<Laws<float>::Collider> colliders_;  ///< at one step, as a cloth sees them
+    bool colliders_known_ = false;
+    std::uint32_t known_index_ = 0;  ///< of that step
+    Vec3d known_origin_;             ///< of that cloth
     PassClock clock_;
 };
 

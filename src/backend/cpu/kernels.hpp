@@ -31,6 +31,36 @@ struct SheetArguments {
     std::size_t collider_count;
 };
 
+/// Rows of a sheet, from `begin` to before `end`.
+struct RowRange {
+    std::ptrdiff_t begin, end;
+};
+
+/// Several steps of a sheet in one pass over its rows: a step finds its state where the one before left it.
+struct SheetStretch {
+    static constexpr std::size_t most_steps = 8;
+    /// Floats that a step needs beside the state, of a sheet with so many floats in a row with its pads.
+    static constexpr std::size_t carried_size(std::size_t row_stride) { return 2 * 3 * row_stride; }
+
+    const SheetArguments* steps;
+    const RowRange* rows;  ///< of each step
+    std::size_t count;     ///< of steps, at most `most_steps`
+    float* carried;        ///< carried_size for each step
+};
+
+/// Measures of a sheet's nodes, by blocks of `block_size` nodes in their order.
+struct MeasureArguments {
+    const NodeLayout* layout;
+    ConstVectors position, velocity;
+    const float* inverse_mass;
+    const float* masses;  ///< kg, of each node, pinned ones too
+    std::size_t node_count;
+    const StepConstants<float>* constants;
+    const Laws<float>::Collider* colliders;
+    std::size_t collider_count;
+    float* measures;  ///< eight numbers for each block
+};
+
 /// Forces of springs, whose ends are offsets into the planes. All arrays are padded to whole packs of 16 with
 /// springs of no length, and `first` and `end` of a call are multiples of 16.
 struct SpringArguments {
@@ -86,8 +116,9 @@ using BodyKernel = void (*)(const BodyArguments&, std::size_t first_block, std::
 
 struct Kernels {
     const char* name;
-    void (*sheet_step)(const SheetArguments&, std::size_t first_row, std::size_t end_row);
+    void (*sheet_steps)(const SheetStretch&);
     void (*sheet_wind)(const SheetArguments&, std::size_t first_row, std::size_t end_row);
+    void (*sheet_measure)(const MeasureArguments&, std::size_t first_block, std::size_t end_block);
     void (*spring_forces)(const SpringArguments&, std::size_t first, std::size_t end);
     BodyKernel ring_step, volume_gather, volume_step, volume_cubic, volume_correct;
     /// Segments or rows of a pass of the constraint solver.

@@ -59,55 +59,6 @@ inline void for_each_block(const SheetArguments& a, std::size_t first_row, std::
                     column >= 2 && column + width + 2 <= columns});
 }
 
-/// Sum of the spring forces on a pack of nodes, in canonical order.
-template <bool interior>
-inline Vector spring_forces_on(const SheetArguments& a, const Block& block, const Vector& x, const Vector& v)
-{
-    const StepConstants<float>& c = *a.constants;
-    const auto rows = static_cast<std::ptrdiff_t>(a.layout->rows),
-               columns = static_cast<std::ptrdiff_t>(a.layout->columns);
-    const auto stride = static_cast<std::ptrdiff_t>(a.layout->stride);
-    const Vector zero{Number(0.0f), Number(0.0f), Number(0.0f)};
-    Vector force = zero;
-#pragma GCC unroll 12
-    for (int n = 0; n < 12; ++n) {
-        const SheetNeighbour& neighbour = sheet_neighbours[n];
-        const std::ptrdiff_t row = block.row + neighbour.row_offset;
-        if (row < 0 || row >= rows) continue;
-        const std::ptrdiff_t other = block.offset + neighbour.row_offset * stride + neighbour.column_offset;
-        const auto k = static_cast<std::size_t>(neighbour.spring_class);
-        Vector f = L::spring_force(x, load(a.position, other), v, load(a.velocity, other),
-                                   Number(c.rest_lengths[neighbour.rest]), Number(c.stiffness[k]),
-                                   Number(c.damping[k]));
-        if (!interior && neighbour.column_offset != 0)
-            f = L::choose(lanes_on_sheet(block.column + neighbour.column_offset, columns), f, zero);
-        force = force + f;
-    }
-    return force;
-}
-
-void sheet_step(const SheetArguments& a, std::size_t first_row, std::size_t end_row)
-{
-    const StepConstants<float>& c = *a.constants;
-    const Vector gravity = spread_vector<Number>(c.gravity);
-    const Number dt(c.dt), decay(c.decay), thickness(c.thickness);
-    for_each_block(a, first_row, end_row, [&](const Block& block) {
-        const L::Motion now = {load(a.position, block.offset), load(a.velocity, block.offset)};
-        const Number w = Number::load(a.inverse_mass + block.offset);
-        Vector force = block.interior ? spring_forces_on<true>(a, block, now.position, now.velocity)
-                                      : spring_forces_on<false>(a, block, now.position, now.velocity);
-        if (a.external_force.x) force = force + load(a.external_force, block.offset);
-        L::Motion next;
-        next.velocity = L::velocity_step(now.velocity, force, w, gravity, decay, dt);
-        next.position = L::position_step(now.position, next.velocity, dt);
-        for (std::size_t k = 0; k < a.collider_count; ++k)
-            next = L::contact_step(now, next, spread_collider<L::Collider, Number>(a.colliders[k]), thickness,
-                                   w, dt);
-        store(a.next_position, block.offset, next.position);
-        store(a.next_velocity, block.offset, next.velocity);
-    });
-}
-
 /// Triangles around a node of a sheet in the order of ClothModel::triangles, by offsets of (row, column).
 struct SheetTriangle {
     int quad_row, quad_column;  ///< of the quad's first corner, against the node
@@ -160,6 +111,10 @@ void spring_forces(const SpringArguments& a, std::size_t first, std::size_t end)
                               Number::load(a.damping + s)));
 }
 
+#include "backend/cpu/sheet_kernels.inl"
+
+#include "backend/cpu/measure_kernels.inl"
+
 #include "backend/cpu/body_kernels.inl"
 
 void solve(const SolverContext<float>& context, const Call& call, int first, int end)
@@ -170,7 +125,8 @@ void solve(const SolverContext<float>& context, const Call& call, int first, int
 }  // namespace
 
 extern const Kernels PLIANT_KERNELS;
-const Kernels PLIANT_KERNELS = {PLIANT_KERNELS_NAME, sheet_step,  sheet_wind,   spring_forces,  ring_step,
-                                volume_gather,       volume_step, volume_cubic, volume_correct, solve};
+const Kernels PLIANT_KERNELS = {PLIANT_KERNELS_NAME, sheet_steps,    sheet_wind,    sheet_measure,
+                                spring_forces,       ring_step,      volume_gather, volume_step,
+                                volume_cubic,        volume_correct, solve};
 
 }  // namespace pliant::cpu

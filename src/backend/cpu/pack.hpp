@@ -12,6 +12,8 @@
 #include "backend/host/lanes.hpp"
 #include "laws/laws.hpp"
 
+#define PLIANT_INLINE inline __attribute__((always_inline))
+
 namespace pliant {
 
 /// The compiler's vector types. Spelled out, because GCC applies vector_size too late when the size is a
@@ -99,6 +101,97 @@ struct NumberTraits<Pack<W>> {
         for (int k = 0; k < W; ++k)
             if (m.lanes[k]) return true;
         return false;
+    }
+};
+
+/// N packs at once: instructions of N chains by turns, so that one fills the waits of the others. Members and
+/// not an array, which GCC would leave in memory.
+template <class P, int N>
+struct Group {
+    using Rest = Group<P, N - 1>;
+    struct Mask {
+        typename P::Mask first;
+        typename Rest::Mask rest;
+    };
+    P first;
+    Rest rest;
+
+    Group() = default;
+    Group(P a, Rest others) : first(a), rest(others) {}
+    Group(float a) : first(a), rest(a) {}
+    Group(double) = delete;
+
+    /// The members f.template operator()<k>(), from k = begin on.
+    template <int begin = 0, class Function>
+    static PLIANT_INLINE Group of(const Function& f)
+    {
+        return {f.template operator()<begin>(), Rest::template of<begin + 1>(f)};
+    }
+    template <int k>
+    PLIANT_INLINE P member() const
+    {
+        if constexpr (k == 0)
+            return first;
+        else
+            return rest.template member<k - 1>();
+    }
+    friend PLIANT_INLINE Group operator+(const Group& a, const Group& b)
+    {
+        return {a.first + b.first, a.rest + b.rest};
+    }
+    friend PLIANT_INLINE Group operator-(const Group& a, const Group& b)
+    {
+        return {a.first - b.first, a.rest - b.rest};
+    }
+    friend PLIANT_INLINE Group operator*(const Group& a, const Group& b)
+    {
+        return {a.first * b.first, a.rest * b.rest};
+    }
+    friend PLIANT_INLINE Group operator-(const Group& a) { return {-a.first, -a.rest}; }
+    friend PLIANT_INLINE Mask operator>(const Group& a, const Group& b)
+    {
+        return {a.first > b.first, a.rest > b.rest};
+    }
+};
+template <class P>
+struct Group<P, 1> {
+    struct Mask {
+        typename P::Mask first;
+    };
+    P first;
+
+    Group() = default;
+    Group(P a) : first(a) {}
+    Group(float a) : first(a) {}
+
+    template <int begin = 0, class Function>
+    static PLIANT_INLINE Group of(const Function& f)
+    {
+        return {f.template operator()<begin>()};
+    }
+    template <int k>
+    PLIANT_INLINE P member() const
+    {
+        return first;
+    }
+    friend PLIANT_INLINE Group operator+(const Group& a, const Group& b) { return {a.first + b.first}; }
+    friend PLIANT_INLINE Group operator-(const Group& a, const Group& b) { return {a.first - b.first}; }
+    friend PLIANT_INLINE Group operator*(const Group& a, const Group& b) { return {a.first * b.first}; }
+    friend PLIANT_INLINE Group operator-(const Group& a) { return {-a.first}; }
+    friend PLIANT_INLINE Mask operator>(const Group& a, const Group& b) { return {a.first > b.first}; }
+};
+
+template <class P, int N>
+struct NumberTraits<Group<P, N>> {
+    static constexpr int inverse_sqrt_steps = NumberTraits<P>::inverse_sqrt_steps;
+
+    static PLIANT_INLINE Group<P, N> inverse_sqrt_seed(const Group<P, N>& a)
+    {
+        if constexpr (N == 1)
+            return {NumberTraits<P>::inverse_sqrt_seed(a.first)};
+        else
+            return {NumberTraits<P>::inverse_sqrt_seed(a.first),
+                    NumberTraits<Group<P, N - 1>>::inverse_sqrt_seed(a.rest)};
     }
 };
 

@@ -1,0 +1,44 @@
+// Steps of a sheet that are taken in one pass over its rows, so that its state comes from memory once for all
+// of them.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "backend/cpu/kernels.hpp"
+#include "backend/host/plain_cloth.hpp"
+
+namespace pliant::cpu {
+
+/// Threads share the rows in two phases. Step k needs two rows more than it makes, so in the first phase a
+/// part's rows shrink from step to step by two at every side that it shares, and no part waits for another;
+/// the second phase fills the gaps, which grow by as much ("split tiling"; Grosser et al., "Split tiling for
+/// GPUs", 2013).
+class SheetSteps {
+public:
+    using Collider = Laws<float>::Collider;
+
+    /// For up to `most_parts` parts of a sheet.
+    SheetSteps(const NodeLayout& layout, std::size_t most_parts);
+
+    /// How many steps are worth taking at once by so many parts.
+    static std::size_t most_steps(std::size_t rows, std::size_t parts);
+
+    void begin();
+    void add(PlainCloth<float>& cloth, std::uint32_t parity, const StepConstants<float>& constants,
+             std::span<const Collider> colliders);
+    std::size_t count() const { return count_; }
+
+    /// Phase 0 has `parts` parts, phase 1 one less. Parts of a phase may run at once.
+    void part(const Kernels& kernels, unsigned phase, std::size_t index, std::size_t parts);
+
+private:
+    std::size_t rows_;
+    std::vector<AlignedArray<float>> carried_;  // by part
+    std::array<SheetArguments, SheetStretch::most_steps> steps_{};
+    std::array<std::vector<Collider>, SheetStretch::most_steps> colliders_;
+    std::size_t count_ = 0;
+};
+
+}  // namespace pliant::cpu
