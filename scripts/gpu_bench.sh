@@ -48,15 +48,18 @@ if [ ${#quick[@]} -gt 0 ]; then
     sheets=30,1000 bodies=1000
 fi
 
+failed=0
 # The same cases on both: bench SUITE SIZES
 bench() {
-    "$pliant" bench "$1" --backend vulkan --device "$device" --sizes "$2" "${quick[@]}" --csv "$folder/$1_vulkan.csv"
-    "$pliant" bench "$1" --backend cpu --sizes "$2" "${quick[@]}" --csv "$folder/$1_cpu.csv"
+    "$pliant" bench "$1" --backend vulkan --device "$device" --sizes "$2" "${quick[@]}" --csv "$folder/$1_vulkan.csv" ||
+        failed=1
+    "$pliant" bench "$1" --backend cpu --sizes "$2" "${quick[@]}" --csv "$folder/$1_cpu.csv" || failed=1
 }
 bench mss "$sheets"
 bench volume "$bodies"
 if [ ${#quick[@]} -eq 0 ]; then
-    "$pliant" bench constraint --backend vulkan --device "$device" --only "a million" --csv "$folder/constraint_vulkan.csv"
+    "$pliant" bench constraint --backend vulkan --device "$device" --only "a million" --csv "$folder/constraint_vulkan.csv" ||
+        failed=1
 fi
 
 # Fields in quotes may have commas (the device): they are taken out first.
@@ -64,7 +67,6 @@ fields() { cat "$@" | sed -e ':again' -e 's/\(,"[^",]*\),\([^"]*",\)/\1\2/' -e '
 column='function column(name,   k) { for (k = 1; k <= NF; ++k) if (head[k] == name) return $k; }
         $1 == "row" { for (k = 1; k <= NF; ++k) head[k] = $k; next }'
 
-failed=0
 echo "Bars:"
 fields "$folder"/*_vulkan.csv | awk -F, "$column"'
     column("bar") != "" && column("backend") == "vulkan" {

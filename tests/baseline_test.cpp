@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <functional>
 
+#include "bullet_cloth.hpp"
 #include "pliant/mesh_generators.hpp"
 #include "serial_scene.hpp"
 #include "test_cloths.hpp"
@@ -157,6 +158,21 @@ TEST(SerialCloth, ThatDoesLessWorkIsSeen)
         const Runs runs = runs_of(scene, std::move(cloth));
         EXPECT_GT(runs.apart, 10 * slack * runs.rounding);
     }
+}
+
+TEST(BulletSoftBody, FallsAndHoldsTogether)
+{
+    Scene scene = steady(test::flat_sheet(7, 9), 80);
+    const serial::Cloth cloth = serial::cloth_of(scene);
+    const auto body = bullet::soft_body_of(cloth);
+    if (!body) GTEST_SKIP() << "built without Bullet";
+    constexpr float dt = 1e-3f;
+    constexpr int steps = 200;
+    for (int k = 0; k < steps; ++k) body->step(dt);
+    // Nothing holds it: all nodes fall by g t^2 / 2, but for the first order of the step, g t dt / 2.
+    const double fall = 9.81 * 0.5 * steps * dt * steps * dt;
+    for (std::size_t i = 0; i < cloth.nodes.size(); ++i)
+        EXPECT_NEAR(double{cloth.nodes[i].position.y} - double{body->position(i).y}, fall, 0.02 * fall);
 }
 
 TEST(SerialCloth, RefusesWhatItDoesNotKnow)

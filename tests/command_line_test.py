@@ -84,6 +84,7 @@ BAD_COMMANDS = [
     ("bench mss --csv a.csv --plot a.csv", BAD_USAGE, ["--csv", "--plot", "a.csv"]),
     ("bench mss --sizes 100,many", BAD_USAGE, ["--sizes", "many"]),
     ("bench mss --sizes 3", BAD_USAGE, ["--sizes", "3", "16"]),
+    ("bench volume --sizes 100", BAD_USAGE, ["--sizes", "100", "1,000 to 500,000"]),
     ("bench acad --sizes 100", BAD_USAGE, ["--sizes", "acad", "mss"]),
     ("bench stability --json nowhere/a.json", BAD_INPUT, ["nowhere"]),
     ("run scene.json --frames many", BAD_USAGE, ["--frames", "many"]),

@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <memory>
+#include <new>
 #include <set>
 #include <thread>
 
@@ -57,6 +58,32 @@ std::string machine_name(const BenchOptions& options)
            std::to_string(std::thread::hardware_concurrency()) + " cores";
 }
 
+/// Runs the cases of a suite. One that the device cannot hold or run is told, and the others go on.
+void measure(const char* suite, const std::vector<BenchCase>& cases, BenchTable& table, std::size_t& failures)
+{
+    table.begin_suite(suite);
+    Progress progress(cases.size(), false, "case");
+    for (std::size_t k = 0; k < cases.size(); ++k) {
+        progress.update(k, cases[k].name);
+        std::string failure;
+        try {
+            cases[k].measure(table);
+        } catch (const Error& error) {
+            if (error.kind != ErrorKind::device_failure) throw;
+            failure = error.what();
+        } catch (const std::bad_alloc&) {
+            failure = "this machine has too little memory for it";
+        }
+        if (failure.empty()) continue;
+        ++failures;
+        progress.clear();
+        std::fprintf(stderr, "pliant: not measured: %s: %s\n", cases[k].name.c_str(), failure.c_str());
+    }
+    progress.update(cases.size(), std::string(suite) + " is done");
+    progress.clear();
+    print_suite(suite, table.rows());
+}
+
 }  // namespace
 
 int bench_command(const BenchOptions& options)
@@ -75,27 +102,23 @@ int bench_command(const BenchOptions& options)
                 options.quick ? "; --quick: these figures say nothing" : "");
     std::fflush(stdout);
 
-    BenchTable table;
+    std::vector<std::vector<BenchCase>> cases;  // by suite; what is wrong with the options shows here
     for (const Suite& suite : suites) {
+        cases.emplace_back();
         if (options.suite != "all" && options.suite != suite.name) continue;
-        table.begin_suite(suite.name);
-        std::vector<BenchCase> cases = suite.cases(options);
-        std::erase_if(
-            cases, [&](const BenchCase& each) { return each.name.find(options.only) == std::string::npos; });
-        if (cases.empty()) continue;
-        Progress progress(cases.size(), false, "case");
-        for (std::size_t k = 0; k < cases.size(); ++k) {
-            progress.update(k, cases[k].name);
-            cases[k].measure(table);
-        }
-        progress.update(cases.size(), std::string(suite.name) + " is done");
-        progress.clear();
-        print_suite(suite.name, table.rows());
+        cases.back() = suite.cases(options);
+        std::erase_if(cases.back(), [&](const BenchCase& each) {
+            return each.name.find(options.only) == std::string::npos;
+        });
     }
+    BenchTable table;
+    std::size_t failures = 0;
+    for (std::size_t k = 0; k < cases.size(); ++k)
+        if (!cases[k].empty()) measure(suites[k].name, cases[k], table, failures);
     if (json) write_json(*json, machine, table.rows());
     if (csv) write_csv(*csv, machine, table.rows());
     if (plot) write_plot(*plot, machine, table.rows());
-    return 0;
+    return failures == 0 ? 0 : static_cast<int>(ErrorKind::device_failure);
 }
 
 }  // namespace pliant::tool

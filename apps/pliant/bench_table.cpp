@@ -23,6 +23,11 @@ std::string text_of(const char* format, const std::optional<double>& value, doub
     return value ? text_of(format, scale * *value) : "";
 }
 
+std::string threads_text(const BenchRow& row)
+{
+    return row.threads > 0 ? std::to_string(row.threads) : "";  // a device has none
+}
+
 bool same_case(const BenchRow& a, const BenchRow& b)
 {
     const auto key = [](const BenchRow& row) {
@@ -131,7 +136,7 @@ const std::vector<Column>& columns()
         {"case", true, [](const BenchRow& r) { return r.subject; }},
         {"method", true, [](const BenchRow& r) { return r.method; }},
         {"backend", true, [](const BenchRow& r) { return r.backend; }},
-        {"threads", false, [](const BenchRow& r) { return r.threads > 0 ? std::to_string(r.threads) : ""; }},
+        {"threads", false, threads_text},
         {"nodes", false, [](const BenchRow& r) { return std::to_string(r.nodes); }},
         {"springs", false, [](const BenchRow& r) { return std::to_string(r.springs); }},
         {"ms/step", false, [](const BenchRow& r) { return r.time ? text_of("%.4g", r.time->median) : ""; }},
@@ -205,9 +210,9 @@ void print_suite(const std::string& suite, std::span<const BenchRow> rows)
     lines = {{"case", "nodes", "threads", "measured", "value", "unit", "bar", "", ""}};
     for (const BenchRow* row : of_suite)
         for (const Measured& m : row->measured)
-            lines.push_back({row->subject, std::to_string(row->nodes), std::to_string(row->threads),
-                             m.quantity, text_of("%.4g", m.value), m.unit, m.bar.text(),
-                             m.bar.verdict_on(m.value), m.remark});
+            lines.push_back({row->subject, std::to_string(row->nodes), threads_text(*row), m.quantity,
+                             text_of("%.4g", m.value), m.unit, m.bar.text(), m.bar.verdict_on(m.value),
+                             m.remark});
     std::printf("\n");
     if (lines.size() > 1) {
         print_lines(lines, {true, false, false, true, false, true, true, true, true});
