@@ -28,7 +28,7 @@ SteppedSimulation::SteppedSimulation(const Scene& scene, const SimulationOptions
 {
 }
 
-double SteppedSimulation::milliseconds_of_measures() const
+double SteppedSimulation::all_measures() const
 {
     double sum = 0;
     for (const PassTime& pass : simulation_.pass_times())
@@ -37,15 +37,20 @@ double SteppedSimulation::milliseconds_of_measures() const
     return sum;
 }
 
+double SteppedSimulation::milliseconds_of_measures() const
+{
+    return all_measures() / static_cast<double>(simulation_.report().frames + 1);  // and those of the start
+}
+
 double SteppedSimulation::milliseconds_per_step()
 {
-    const double measures_before = milliseconds_of_measures();
+    const double measures_before = all_measures();
     const auto start = std::chrono::steady_clock::now();
     simulation_.advance(duration_);
     const double wall =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     stretch_ = std::max(stretch_, simulation_.report().measures.max_stretch);
-    return (wall - (milliseconds_of_measures() - measures_before)) / substeps_;
+    return (wall - (all_measures() - measures_before)) / substeps_;
 }
 
 }  // namespace pliant::tool

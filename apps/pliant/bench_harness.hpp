@@ -32,13 +32,13 @@ public:
     /// Advances by a frame; ms for a step of it. The measures of the frame are not counted: they belong to
     /// frames, not to steps, of which a frame may have one or a thousand.
     double milliseconds_per_step();
+    double milliseconds_of_measures() const;  ///< of a frame, mean of all so far
 
     Simulation& simulation() { return simulation_; }
-    double stretch() const { return stretch_; }    ///< largest at the end of a frame
-    double duration() const { return duration_; }  ///< s, of a frame
+    double stretch() const { return stretch_; }  ///< largest at the end of a frame
 
 private:
-    double milliseconds_of_measures() const;
+    double all_measures() const;  ///< ms
 
     double duration_, substeps_, stretch_ = 0;
     Simulation simulation_;

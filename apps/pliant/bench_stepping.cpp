@@ -124,17 +124,15 @@ Scene stepped_scene(Cloth cloth, Method method, bool quick, double longest)
 void measure_stepping(const SteppingCase& what, const BenchOptions& options, BenchTable& table)
 {
     const std::size_t copied = options.quick ? std::size_t{1} << 20 : std::size_t{128} << 20;
-    std::optional<Pliant> all, one;
-    if (what.all_threads) all.emplace(what.scene, options.simulation, copied);
-    const bool threaded = all && all->stepped.simulation().backend() == Backend::cpu &&
-                          all->stepped.simulation().thread_count() > 1;
-    if (!all || (what.one_thread && threaded)) {
+    Pliant all(what.scene, options.simulation, copied);
+    const Backend backend = all.stepped.simulation().backend();
+    std::optional<Pliant> one;
+    if (what.one_thread && backend == Backend::cpu && all.stepped.simulation().thread_count() > 1) {
         SimulationOptions single = options.simulation;
         single.threads = 1;
         one.emplace(what.scene, single, copied);
     }
 
-    const Backend backend = (all ? *all : *one).stepped.simulation().backend();
     const double bytes = bytes_per_node_and_step(ClothModel(what.scene.cloth(0), what.scene), backend);
 
     const auto dt = static_cast<float>(1 / (what.scene.time.frame_rate * what.scene.time.substeps));
@@ -142,11 +140,11 @@ void measure_stepping(const SteppingCase& what, const BenchOptions& options, Ben
         bullet{what.bullet ? bullet_step(what.scene, dt) : nullptr};
     std::vector<Contestant*> contestants = {&serial};
     if (bullet.run) contestants.push_back(&bullet);
-    for (std::optional<Pliant>* pliant : {&one, &all})
-        if (*pliant) contestants.insert(contestants.end(), {&(*pliant)->step, &(*pliant)->bandwidth});
+    if (one) contestants.insert(contestants.end(), {&one->step, &one->bandwidth});
+    contestants.insert(contestants.end(), {&all.step, &all.bandwidth});
     take_turns(contestants, repeats);
 
-    const auto add = [&](Pliant& pliant, double faster_than_serial) {
+    const auto add = [&](Pliant& pliant) {
         Simulation& simulation = pliant.stepped.simulation();
         BenchRow row = table.row(simulation, what.subject, what.stiffness, pliant.stepped.stretch());
         row.time = step_time_of(pliant.step.samples);
@@ -161,8 +159,11 @@ void measure_stepping(const SteppingCase& what, const BenchOptions& options, Ben
         if (bullet.run) row.ratio_to_soft_body = ratio_of(bullet, pliant.step);
         table.add(row);
         table.add(row, "copying", median_of(pliant.bandwidth.samples), "GB/s");
-        const bool cpu = simulation.backend() == Backend::cpu, gpu = on_gpu(simulation);
-        if (cpu && faster_than_serial > 0)
+        table.add(row, "measures of a frame", pliant.stepped.milliseconds_of_measures(), "ms");
+        const bool gpu = on_gpu(simulation);
+        const double faster_than_serial =
+            row.threads == 1 ? what.faster_than_serial_one_thread : what.faster_than_serial;
+        if (backend == Backend::cpu && faster_than_serial > 0)
             table.add(row, "times as fast as serial", *row.ratio_to_serial, "1",
                       at_least(faster_than_serial));
         if (gpu && what.copy_fraction > 0)
@@ -173,11 +174,10 @@ void measure_stepping(const SteppingCase& what, const BenchOptions& options, Ben
         if (!simulation.report().finite) table.add(row, "finite", 0, "1", at_least(1));
         return row;
     };
-    BenchRow last;
-    if (one) last = add(*one, what.faster_than_serial_one_thread);
-    if (all) last = add(*all, what.faster_than_serial);
-    if (one && all && what.scaling > 0)
-        table.add(last, "times as fast as one thread", ratio_of(one->step, all->step), "1",
+    if (one) add(*one);
+    const BenchRow last = add(all);
+    if (one && what.scaling > 0)
+        table.add(last, "times as fast as one thread", ratio_of(one->step, all.step), "1",
                   at_least(what.scaling));
     table.add(baseline_row(last, "serial", serial));
     if (bullet.run) table.add(baseline_row(last, "btSoftBody", bullet));

@@ -11,13 +11,13 @@ namespace pliant::tool {
 
 /// What is stepped, and what is asked of it.
 struct SteppingCase {
-    std::string subject;                          ///< the same at all sizes
-    Scene scene;                                  ///< its substeps are the steps of a sample
-    double stiffness = 0;                         ///< N/m, the largest
-    bool bullet = false;                          ///< compare with btSoftBody, too, where it was built in
-    bool one_thread = false, all_threads = true;  ///< which of the two are measured on the backend cpu
-    // Bars on the backend cpu, of this against `serial`; 0 asks nothing.
-    double faster_than_serial = 0;  ///< all threads
+    std::string subject;      ///< the same at all sizes
+    Scene scene;              ///< its substeps are the steps of a sample
+    double stiffness = 0;     ///< N/m, the largest
+    bool bullet = false;      ///< compare with btSoftBody, too, where it was built in
+    bool one_thread = false;  ///< measure one thread of the backend cpu beside all that were asked for
+    // Bars on the backend cpu; 0 asks nothing.
+    double faster_than_serial = 0;  ///< two threads or more, against `serial`
     double faster_than_serial_one_thread = 0;
     double scaling = 0;  ///< all threads against one
     // Bars on a GPU.
