@@ -40,7 +40,7 @@ def look_at(row):
     expect(TIMED <= row.keys(), f"{TIMED - row.keys()} are missing in {row}")
     expect(0 < row["ms_per_step_min"] <= row["ms_per_step_median"] <= row["ms_per_step_max"], f"no median: {row}")
     expect(row["repeats"] >= LEAST_REPEATS, f"too few repeats: {row}")
-    expect(math.isclose(row["ns_per_node_step"], 1e6 * row["ms_per_step_median"] / row["nodes"], rel_tol=1e-6),
+    expect(math.isclose(row["ns_per_node_step"], 1e6 * row["ms_per_step_median"] / row["nodes"], rel_tol=1e-5),
            f"ns per node do not agree with ms: {row}")
 
 
@@ -97,7 +97,8 @@ def main():
         plot = xml.parse(folder / "b.svg").getroot()
         expect(plot.tag.endswith("svg"), "b.svg is no SVG")
         points = len(plot.findall(".//{http://www.w3.org/2000/svg}circle"))
-        expect(points == sum("ms_per_step_median" in row for row in rows), f"{points} points in the plot")
+        timed = sum("ms_per_step_median" in row and suite != "acad" and " by " not in row["case"] for row in rows)
+        expect(points == timed, f"{points} points in the plot of {timed} rows")
         expect({path.name for path in folder.iterdir()} == {"b.json", "b.csv", "b.svg"}, "other files were left")
 
 

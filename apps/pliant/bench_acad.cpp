@@ -58,11 +58,13 @@ BenchCase idle_case(const BenchOptions& options)
                     ratios.push_back(other / one);
                 }
                 BenchRow row = table.row(springs, subject, sheet_stiffness, stretch);
+                row.in_plot = false;
                 row.time = step_time_of(of_springs);
                 table.add(row);
                 row = table.row(acad, subject, sheet_stiffness, stretch);
                 const auto active = acad.report().solver.active_max;
                 if (active > 0) row.remark = std::to_string(active) + " constraints were active";
+                row.in_plot = false;
                 row.time = step_time_of(of_acad);
                 table.add(row, "acad / mass_spring", median_of(ratios), "1", at_most(1.15));
             }};
@@ -104,6 +106,7 @@ BenchCase figure_10_case(const BenchOptions& options, bool by_corners)
                     const double rate = 1000 / median_of(milliseconds);
                     BenchRow row = table.row(simulation, subject, sheet_stiffness, stretch);
                     for (double& each : milliseconds) each /= scene.time.substeps;
+                    row.in_plot = false;
                     row.time = step_time_of(milliseconds);
                     row.remark =
                         simulation.report().finite

@@ -55,6 +55,7 @@ void measure_backends(const std::string& subject, Scene scene, double stiffness,
         Simulation& simulation = entrant->stepped.simulation();
         BenchRow row = table.row(simulation, subject + " by " + simulation.device_name(), stiffness,
                                  entrant->stepped.stretch());
+        row.in_plot = false;
         row.time = step_time_of(entrant->step.samples);
         row.real_time_factor = 1000 * row.step / row.time->median;
         row.bytes = bytes_per_node_and_step(model, simulation.backend());

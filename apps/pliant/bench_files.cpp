@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 #include <nlohmann/json.hpp>
 
@@ -13,8 +14,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Finite numbers as they are; JSON knows no others.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+/// With seven digits, more than can be measured; JSON knows finite numbers alone.
+Json number(double value)
+{
+    if (!std::isfinite(value)) return nullptr;
+    char text[32];
+    std::snprintf(text, sizeof text, "%.7g", value);
+    return std::strtod(text, nullptr);
+}
 
 std::string hash_text(std::uint64_t hash)
 {

@@ -25,7 +25,7 @@ std::vector<Series> series_of(std::span<const BenchRow> rows)
     std::vector<Series> all;
     std::map<std::string, std::size_t> index;
     for (const BenchRow& row : rows) {
-        if (!row.time || row.time->median <= 0 || row.nodes == 0) continue;
+        if (!row.in_plot || !row.time || row.time->median <= 0 || row.nodes == 0) continue;
         const bool baseline = row.backend == "serial" || row.backend == "btSoftBody";
         std::string name = (row.series.empty() ? row.subject : row.series) + " · " + row.backend;
         if (row.backend == "cpu")
@@ -98,14 +98,14 @@ public:
                 y_.cover(p.most);
             }
         height_ = std::max(480, 120 + 20 * static_cast<int>(series_.size()));
-        x_.from = 70, x_.to = 610;
+        x_.from = 70, x_.to = 750;
         y_.from = height_ - 60, y_.to = 60;
     }
 
     void write(const std::string& title)
     {
-        out_ << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"960\" height=\"" << height_
-             << "\" viewBox=\"0 0 960 " << height_ << "\" font-family=\"sans-serif\" font-size=\"12\">\n"
+        out_ << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"1100\" height=\"" << height_
+             << "\" viewBox=\"0 0 1100 " << height_ << "\" font-family=\"sans-serif\" font-size=\"12\">\n"
              << "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
         text(70, 24, "start", "Time of a step: ns per node, over nodes (median, least and largest)",
              "font-size=\"15\"");
@@ -169,8 +169,8 @@ private:
                  << "\"/>\n";
         }
         const double y = 70 + 20 * static_cast<double>(k);
-        line(630, y, 658, y, stroke.c_str());
-        text(666, y + 4, "start", series.name);
+        line(770, y, 798, y, stroke.c_str());
+        text(806, y + 4, "start", series.name);
     }
 
     std::ostream& out_;

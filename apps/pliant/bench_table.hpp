@@ -50,6 +50,7 @@ struct BenchRow {
     double stiffness = 0;     ///< N/m, the largest
     double step = 0;          ///< s
     std::string series = {};  ///< that it is a point of in the plot; empty: its subject
+    bool in_plot = true;      ///< its time is one of several sizes
     // How fast.
     std::optional<StepTime> time;
     double bytes =
