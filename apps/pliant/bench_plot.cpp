@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
-#include <utility>
 #include <vector>
 
 #include "bench_files.hpp"
@@ -42,14 +41,34 @@ std::vector<Series> series_of(std::span<const BenchRow> rows)
     return all;
 }
 
-/// Logarithmic, from a power of ten (or thrice one) to another.
+/// The 1, 2 or 5 times a power of ten that is nearest to a value, above or below it.
+double round_number(double value, bool up)
+{
+    const double decade = std::pow(10, std::floor(std::log10(value)));
+    constexpr double steps[] = {1, 2, 5, 10}, rounding = 1e-9;
+    double best = up ? 10 * decade : decade;
+    for (const double step : steps) {
+        const double candidate = step * decade;
+        if (up ? candidate >= value * (1 - rounding) : candidate <= value * (1 + rounding))
+            best = up ? std::min(best, candidate) : std::max(best, candidate);
+    }
+    return best;
+}
+
+/// Logarithmic, between round numbers.
 struct Axis {
-    double low = 1, high = 10, from = 0, to = 0;  ///< values, and where they are drawn
+    double low = 0, high = 0, from = 0, to = 0;  ///< values, and where they are drawn
 
     void cover(double value)
     {
-        while (value < low) low /= 10;
-        while (value > high) high *= 10;
+        const double below = round_number(value, false), above = round_number(value, true);
+        low = low > 0 ? std::min(low, below) : below;
+        high = std::max(high, above);
+    }
+    void end()  ///< at least a factor of ten, and something when nothing was covered
+    {
+        if (low <= 0) low = 1;
+        high = std::max(high, 10 * low);
     }
     double at(double value) const
     {
@@ -85,18 +104,14 @@ class Plot {
 public:
     Plot(std::ostream& out, std::vector<Series> series) : out_(out), series_(std::move(series))
     {
-        bool first = true;
         for (const Series& one : series_)
             for (const Point& p : one.points) {
-                if (std::exchange(first, false)) {
-                    x_.low = std::pow(10, std::floor(std::log10(p.nodes)));
-                    y_.low = std::pow(10, std::floor(std::log10(p.least)));
-                    x_.high = 10 * x_.low, y_.high = 10 * y_.low;
-                }
                 x_.cover(p.nodes);
                 y_.cover(p.least);
                 y_.cover(p.most);
             }
+        x_.end();
+        y_.end();
         height_ = std::max(480, 120 + 20 * static_cast<int>(series_.size()));
         x_.from = 70, x_.to = 750;
         y_.from = height_ - 60, y_.to = 60;
@@ -132,10 +147,11 @@ private:
     }
     void axis(const Axis& axis, bool horizontal)
     {
-        for (double decade = axis.low; decade <= axis.high * 1.001; decade *= 10)
+        for (double decade = std::pow(10, std::floor(std::log10(axis.low))); decade <= axis.high * 1.001;
+             decade *= 10)
             for (int digit = 1; digit < 10; ++digit) {
                 const double value = digit * decade;
-                if (value > axis.high * 1.001) break;
+                if (value < axis.low * 0.999 || value > axis.high * 1.001) continue;
                 const double at = axis.at(value);
                 const char* style = digit == 1 ? "stroke=\"#bbb\"" : "stroke=\"#eee\"";
                 if (horizontal)
