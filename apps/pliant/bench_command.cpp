@@ -97,11 +97,6 @@ int bench_command(const BenchOptions& options)
     // Refused before the work is done.
     const auto json = file_of(options.json_file), csv = file_of(options.csv_file),
                plot = file_of(options.plot_file);
-    const BenchMachine machine{machine_name(options), options.quick};
-    std::printf("pliant %s on %s%s\n\n", PLIANT_VERSION, machine.name.c_str(),
-                options.quick ? "; --quick: these figures say nothing" : "");
-    std::fflush(stdout);
-
     std::vector<std::vector<BenchCase>> cases;  // by suite; what is wrong with the options shows here
     for (const Suite& suite : suites) {
         cases.emplace_back();
@@ -111,6 +106,11 @@ int bench_command(const BenchOptions& options)
             return each.name.find(options.only) == std::string::npos;
         });
     }
+    const BenchMachine machine{machine_name(options), options.quick};
+    std::printf("pliant %s on %s%s\n\n", PLIANT_VERSION, machine.name.c_str(),
+                options.quick ? "; --quick: these figures say nothing" : "");
+    std::fflush(stdout);
+
     BenchTable table;
     std::size_t failures = 0;
     for (std::size_t k = 0; k < cases.size(); ++k)
