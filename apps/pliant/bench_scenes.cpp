@@ -90,14 +90,6 @@ void bend_by_constraints(Scene& scene, double compliance)
     make_constraint(scene.cloth_handle(0)->springs.bend, compliance);
 }
 
-double median_of(std::vector<double> values)
-{
-    if (values.empty()) return 0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 double milliseconds_to_advance(Simulation& simulation, double duration)
 {
     const auto start = std::chrono::steady_clock::now();

@@ -100,14 +100,19 @@ void add_run(CLI::App& app, RunOptions& options)
 
 void add_bench(CLI::App& app, BenchOptions& options)
 {
-    CLI::App* bench = app.add_subcommand("bench", "Measure the constraint solver on this machine");
+    CLI::App* bench =
+        app.add_subcommand("bench", "Measure steps and solvers on this machine, beside baselines");
     bench->footer(
         "Examples:\n"
-        "  pliant bench constraint --json constraint.json\n"
-        "  pliant bench stability --quick\n"
+        "  pliant bench mss --plot steps.svg --csv steps.csv\n"
+        "  pliant bench volume --threads 1 --json volume.json\n"
+        "  pliant bench mss --backend vulkan --sizes 16384,262144\n"
+        "  pliant bench all --quick\n"
         "A missed bar is a result, not an error: the exit code stays 0.\n");
-    bench->add_option("suite", options.suite, "constraint, acad, stability or all")
-        ->check(CLI::IsMember({"constraint", "acad", "stability", "all"}))
+    bench
+        ->add_option("suite", options.suite,
+                     "mss (mass-spring steps), constraint, acad, volume, stability or all (default)")
+        ->check(CLI::IsMember({"mss", "constraint", "acad", "volume", "stability", "all"}))
         ->type_name("SUITE");
     static const std::map<std::string, Backend> backends = {{"auto", Backend::automatic},
                                                             {"cpu", Backend::cpu},
@@ -125,15 +130,27 @@ void add_bench(CLI::App& app, BenchOptions& options)
                      "Threads of the cpu backend (default: one for each core)")
         ->check(CLI::Range(1, 1024))
         ->type_name("N");
+    bench->add_option("--device", options.simulation.device, "Vulkan device by its number in pliant info")
+        ->check(CLI::Range(0, 1000))
+        ->type_name("N");
+    bench
+        ->add_option("--sizes", options.sizes,
+                     "Nodes of the sheets (mss, constraint) or bodies (volume), instead of each suite's own")
+        ->delimiter(',')
+        ->check(CLI::Range(16, 64'000'000))
+        ->type_name("N,N,...");
     bench->add_option("--only", options.only, "Only the cases with this in their names, as in --only hanging")
         ->type_name("TEXT");
     bench
         ->add_option("--mesh", options.meshes,
-                     "A mesh whose linear systems are solved, too (constraint); may be given several times")
+                     "A mesh that is measured, too: its linear systems (constraint), its steps as a soft "
+                     "body (volume); may "
+                     "be given several times")
         ->type_name("FILE");
     bench->add_flag("--quick", options.quick, "Small cloths and few frames: to see that it works");
     bench->add_option("--json", options.json_file, "All rows, JSON")->type_name("F.json");
     bench->add_option("--csv", options.csv_file, "All rows, CSV")->type_name("F.csv");
+    bench->add_option("--plot", options.plot_file, "Time of a step over nodes, SVG")->type_name("F.svg");
 }
 
 void add_check(CLI::App& app, CheckOptions& options)

@@ -229,6 +229,7 @@ Buffer Device::make_buffer(vk::DeviceSize size, vk::BufferUsageFlags usage, Memo
                                        : memory_type(needs.memoryTypeBits, host, Property::eHostCached);
         buffer.memory = {device_, vk::MemoryAllocateInfo(needs.size, type)};
         buffer.handle.bindMemory(*buffer.memory, 0);
+        if (memory == Memory::device) memory_made_ += needs.size;
         if (memory != Memory::device) buffer.mapped = buffer.memory.mapMemory(0, VK_WHOLE_SIZE);
         return buffer;
     } catch (const vk::SystemError& error) {

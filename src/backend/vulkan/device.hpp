@@ -75,6 +75,8 @@ public:
     /// Throws Error(device_failure), naming the buffer, when the device cannot hold it.
     Buffer make_buffer(vk::DeviceSize size, vk::BufferUsageFlags usage, Memory memory,
                        const char* name) const;
+    /// Bytes of all buffers of Memory::device that were made, for whoever counts what a simulation holds.
+    std::uint64_t memory_made() const { return memory_made_; }
     std::uint32_t memory_type(std::uint32_t allowed_types, vk::MemoryPropertyFlags wanted,
                               vk::MemoryPropertyFlags preferred = {}) const;
     vk::raii::ShaderModule make_shader(std::span<const std::uint32_t> code) const;
@@ -97,6 +99,7 @@ private:
     void open(const DeviceOptions& options);
 
     mutable std::atomic<std::uint64_t> validation_messages_{0};
+    mutable std::atomic<std::uint64_t> memory_made_{0};
     vk::raii::Context context_;
     vk::raii::Instance instance_{nullptr};
     vk::raii::DebugUtilsMessengerEXT messenger_{nullptr};

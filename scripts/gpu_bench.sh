@@ -1,0 +1,93 @@
+#!/usr/bin/env bash
+# What a GPU must do: speeds against their bars, and the same bits as the CPU. Needs a Vulkan driver and the built
+# program, nothing else:
+#
+#   scripts/gpu_bench.sh [--quick] [PLIANT] [DEVICE] [FOLDER]
+#
+# --quick: tiny sizes, for their bits alone. PLIANT: build/release/bin/pliant. DEVICE: a number of `pliant info`; by default the best. FOLDER: where the CSV files
+# go, build/gpu_bench. A software driver (llvmpipe) is always --quick: its speeds say nothing.
+# Exit codes: 0 all bars met and all bits equal, 1 not, 2 it could not be run.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+quick=()
+if [ "${1:-}" = --quick ]; then
+    quick=(--quick)
+    shift
+fi
+pliant=${1:-build/release/bin/pliant}
+device=${2:-}
+folder=${3:-build/gpu_bench}
+
+if [ ! -x "$pliant" ]; then
+    echo "gpu_bench: there is no program '$pliant': build it first (./dev build), or name it" >&2
+    exit 2
+fi
+devices=$("$pliant" info | grep -- '--backend vulkan --device' || true)
+if [ -z "$devices" ]; then
+    echo "gpu_bench: no Vulkan device was found; install a driver and look at '$pliant info'" >&2
+    exit 2
+fi
+if [ -n "$device" ]; then
+    chosen=$(grep -- "--device $device:" <<<"$devices" || true)
+    if [ -z "$chosen" ]; then
+        printf "gpu_bench: there is no device '%s'; there are:\n%s\n" "$device" "$devices" >&2
+        exit 2
+    fi
+else
+    chosen=$(grep -v '(software' <<<"$devices" | head -n 1 || true)
+    [ -n "$chosen" ] || chosen=$(head -n 1 <<<"$devices")
+    device=$(sed 's/.*--device \([0-9]*\):.*/\1/' <<<"$chosen")
+fi
+echo "$chosen"
+mkdir -p "$folder"
+
+sheets=1024,16384,262144,1048576,7817616 bodies=3000,31112,500000
+if grep -q '(software' <<<"$chosen"; then quick=(--quick); fi
+if [ ${#quick[@]} -gt 0 ]; then
+    echo "Tiny sizes, for their bits alone."
+    sheets=30,1000 bodies=1000
+fi
+
+failed=0
+# The same cases on both: bench SUITE SIZES
+bench() {
+    "$pliant" bench "$1" --backend vulkan --device "$device" --sizes "$2" "${quick[@]}" --csv "$folder/$1_vulkan.csv" ||
+        failed=1
+    "$pliant" bench "$1" --backend cpu --sizes "$2" "${quick[@]}" --csv "$folder/$1_cpu.csv" || failed=1
+}
+bench mss "$sheets"
+bench volume "$bodies"
+if [ ${#quick[@]} -eq 0 ]; then
+    "$pliant" bench constraint --backend vulkan --device "$device" --only "one system a step" --csv "$folder/constraint_vulkan.csv" ||
+        failed=1
+fi
+
+# Fields in quotes may have commas (the device): they are taken out first.
+fields() { cat "$@" | sed -e ':again' -e 's/\(,"[^",]*\),\([^"]*",\)/\1\2/' -e 't again'; }
+column='function column(name,   k) { for (k = 1; k <= NF; ++k) if (head[k] == name) return $k; }
+        $1 == "row" { for (k = 1; k <= NF; ++k) head[k] = $k; next }'
+
+echo "Bars:"
+fields "$folder"/*_vulkan.csv | awk -F, "$column"'
+    column("bar") != "" && column("backend") == "vulkan" {
+        printf "  %-7s %s, %s, %s nodes: %s %s %s, asked for %s\n", column("verdict"), column("suite"), column("case"),
+               column("nodes"), column("measured"), column("value"), column("unit"), column("bar")
+        if (column("verdict") == "missed") missed = 1
+    }
+    END { exit missed }' || failed=1
+echo "Bits, against the CPU:"
+fields "$folder"/{mss,volume}_{vulkan,cpu}.csv | awk -F, "$column"'
+    column("state_hash") != "" {
+        key = column("suite") ", " column("case") ", " column("nodes") " nodes"
+        hash[key, column("backend")] = column("state_hash")
+        if (column("backend") == "vulkan") keys[key] = 1
+    }
+    END {
+        for (key in keys) {
+            same = hash[key, "vulkan"] == hash[key, "cpu"]
+            printf "  %-7s %s: %s, %s\n", same ? "equal" : "DIFFER", key, hash[key, "vulkan"], hash[key, "cpu"]
+            if (same) ++equal; else different = 1
+        }
+        exit different || !equal
+    }' || failed=1
+exit $failed
