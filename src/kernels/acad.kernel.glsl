@@ -12,13 +12,6 @@ KERNEL mask is_overstretched(real length2, real rest, mask held)
     return length2 > choose(length2 < below * rest2, real(-1.0f), above * rest2);
 }
 
-// The same where no spring was one before: the whole cost of being ready.
-KERNEL mask is_beyond(real length2, real rest2)
-{
-    if (!acad_has_compression()) return length2 > acad_above2() * rest2;
-    return length2 > choose(length2 < acad_below2() * rest2, real(-1.0f), acad_above2() * rest2);
-}
-
 // Near enough to the threshold that this step may take it there.
 KERNEL mask is_near_threshold(real length2, real rest, mask held)
 {
@@ -28,16 +21,33 @@ KERNEL mask is_near_threshold(real length2, real rest, mask held)
     return length2 > choose(length2 < below * rest2, real(-1.0f), above * rest2);
 }
 
+// How far it is beyond the threshold, by length squared, m2: the whole cost of being ready.
+KERNEL real excess(real length2, real rest2)
+{
+    real over = length2 - acad_above2() * rest2;
+    return acad_has_compression() ? largest(over, acad_below2() * rest2 - length2) : over;
+}
+
 KERNEL void sheet_limits(int o)
 {
     vec3 x = node_next_position(o);
     bool inside = all_springs_there();
-    UNROLL for (int k = 0; k < 6; ++k) {
+    if (!acad_has_memory()) {  // then nothing is counted where no spring is beyond
+        real most = real(-1.0f);
+        UNROLL for (int k = 0; k < 6; ++k) {
+            if (!sheet_has(k)) continue;
+            vec3 d = node_next_position(o + forward_offset(k)) - x;
+            real over = excess(dot3(d, d), sheet_rest(k) * sheet_rest(k));
+            most = largest(most, inside ? over : choose(load(plane_scale + k, o) > 0.0f, over, real(-1.0f)));
+        }
+        if (!any_lane(most > 0.0f)) return;
+    }
+    for (int k = 0; k < 6; ++k) {
         if (!sheet_has(k)) continue;
         vec3 d = node_next_position(o + forward_offset(k)) - x;
         mask over = acad_has_memory() ? is_overstretched(dot3(d, d), sheet_rest(k), load(plane_mark + k, o) > 0.0f)
-                                      : is_beyond(dot3(d, d), sheet_rest(k) * sheet_rest(k));
-        sums[0] = sums[0] + choose(over, inside ? real(1.0f) : load(plane_scale + k, o), real(0.0f));
+                                      : excess(dot3(d, d), sheet_rest(k) * sheet_rest(k)) > 0.0f;
+        sums[0] = sums[0] + choose(over, load(plane_scale + k, o), real(0.0f));
     }
 }
 

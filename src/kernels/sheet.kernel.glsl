@@ -46,64 +46,141 @@ KERNEL void sheet_multipliers(int o)
     set_multiplier(o, choose(scalar(scalar_idle) > 0.0f, real(0.0f), most));
 }
 
-// Forces and the operator of a node from its springs. A spring is computed at both of its ends: that costs less than to
-// hand over what it has to say, and a force is the exact opposite at the other end. It is counted where it begins.
-KERNEL void sheet_gather(int o)
+// A node while its springs are added: the force on it, and the rows of the operator.
+struct SheetNode
 {
-    vec3 q = load3(plane_q, o), t = load3(plane_t, o);
+    vec3 r;
+    Symmetric diagonal, row_sum;
+};
+
+KERNEL SpringShare no_spring()
+{
+    SpringShare share;
+    share.force = vec3(real(0.0f), real(0.0f), real(0.0f));
+    share.block = symmetric_diagonal(real(0.0f));
+    share.energy = real(0.0f);
+    share.multiplier = real(0.0f);
+    return share;
+}
+
+// Whether the couplings to the neighbour k and to the one behind it have a bend spring folded in, and which.
+KERNEL bool is_bent(int k)
+{
+    return has_bend() && (k == 0 || k == 2);
+}
+KERNEL int bend_along(int k)
+{
+    return k == 0 ? 4 : 5;
+}
+
+// Forces and the operator of a node, springs apart: inertia and contact. They go by sums[1] and [2].
+KERNEL SheetNode sheet_node(int o)
+{
+    vec3 t = load3(plane_t, o);
+    real mass = load(plane_mass, o);
+    vec3 ahead = t - load3(plane_y, o);
+    Contact contact = contact_at(o, load3(plane_q, o), t);
+    SheetNode node;
+    node.r = contact.force - ahead * mass;
+    node.row_sum = plus(symmetric_diagonal(mass), contact.stiffness);
+    node.diagonal = node.row_sum;
+    sums[1] = sums[1] + 0.5f * mass * dot3(ahead, ahead);
+    sums[2] = sums[2] + choose(mass > 0.0f, contact.energy, real(0.0f));
+    return node;
+}
+
+// With the springs to the neighbour k and to the one opposite it; those of the bend springs on the same line; and the
+// block of the one that leads across the node.
+KERNEL SheetNode with_springs(SheetNode node, int k, int o, SpringShare onward, SpringShare back, SpringShare far_onward,
+                              SpringShare far_back, Symmetric across)
+{
+    int j = o + forward_offset(k), i = o - forward_offset(k);
+    node.r = node.r + onward.force + back.force;
+    Symmetric to_j = onward.block, to_i = back.block;
+    mask coupled = both(load(plane_mass, o) > 0.0f, load(plane_mass, j) > 0.0f);
+    if (is_bent(k)) {
+        node.r = node.r + far_onward.force + far_back.force;
+        Symmetric folded_j = plus_scaled(to_j, plus(far_onward.block, across), real(2.0f));
+        if (exact_bend()) {
+            store6(plane_bend + 3 * k, o, far_onward.block);
+            store6(plane_fold + 3 * k, o, where_else_zero(coupled, folded_j));
+            node.diagonal = plus(plus(node.diagonal, far_onward.block), far_back.block);
+        } else {
+            to_j = folded_j;
+            to_i = plus_scaled(to_i, plus(far_back.block, across), real(2.0f));
+        }
+    }
+    node.diagonal = plus(plus(node.diagonal, to_j), to_i);
+    // A coupling to a pinned node is a support of this one.
+    real held_j = choose(load(plane_mass, j) > 0.0f, real(0.0f), real(1.0f));
+    real held_i = choose(load(plane_mass, i) > 0.0f, real(0.0f), real(1.0f));
+    if (any_lane(held_j + held_i > 0.0f))
+        node.row_sum = plus_scaled(plus_scaled(node.row_sum, to_j, held_j), to_i, held_i);
+    store6(plane_block + 6 * k, o, where_else_zero(coupled, to_j));
+    return node;
+}
+
+KERNEL void leave_gathered(int o, SheetNode node, real energy, real taut)
+{
     real mass = load(plane_mass, o);
     mask is_free = mass > 0.0f;
-    vec3 ahead = t - load3(plane_y, o);
-    Contact contact = contact_at(o, q, t);
-    vec3 r = contact.force - ahead * mass;
-    Symmetric row_sum = plus(symmetric_diagonal(mass), contact.stiffness);
-    Symmetric diagonal = row_sum;
+    store(plane_active, o, taut);
+    store6(plane_row_sum, o, where_else_zero(is_free, node.row_sum));
+    store6(plane_factor, o, where_else_zero(is_free, factored(node.diagonal, mass)));
+    store3(plane_r, o, choose(is_free, node.r, vec3(real(0.0f), real(0.0f), real(0.0f))));
+    sums[0] = sums[0] + energy;
+}
+
+// A spring is counted where it begins, and a force is the exact opposite at its other end: whether it is computed once
+// (SolverKernels::gathers) or at both ends, as here, makes no difference.
+KERNEL void sheet_gather(int o)
+{
+    SheetNode node = sheet_node(o);
     real energy = real(0.0f), taut = real(0.0f);
     UNROLL for (int k = 0; k < 4; ++k) {
         int step = forward_offset(k), j = o + step, i = o - step;
-        Symmetric to_j = symmetric_diagonal(real(0.0f)), to_i = to_j;
+        SpringShare onward = no_spring(), back = onward, far_onward = onward, far_back = onward;
+        Symmetric across = onward.block;
         if (sheet_has(k)) {
-            SpringShare onward = sheet_spring(k, o, j, spring_scale(k, o));
-            SpringShare back = sheet_spring(k, o, i, spring_scale(k, i));
-            r = r + onward.force + back.force;
+            onward = sheet_spring(k, o, j, spring_scale(k, o));
+            back = sheet_spring(k, o, i, spring_scale(k, i));
             energy = energy + onward.energy;
             taut = taut + counted_taut(onward);
-            to_j = onward.block;
-            to_i = back.block;
         }
-        mask coupled = both(is_free, load(plane_mass, j) > 0.0f);
-        if (has_bend() && (k == 0 || k == 2)) {
-            int bend = k == 0 ? 4 : 5;
-            SpringShare onward = sheet_spring(bend, o, j + step, spring_scale(bend, o));
-            SpringShare back = sheet_spring(bend, o, i - step, spring_scale(bend, i - step));
-            Symmetric over = sheet_spring(bend, i, j, spring_scale(bend, i)).block;
-            r = r + onward.force + back.force;
-            energy = energy + onward.energy;
-            taut = taut + counted_taut(onward);
-            Symmetric folded_j = plus_scaled(to_j, plus(onward.block, over), real(2.0f));
-            if (exact_bend()) {
-                store6(plane_bend + 3 * k, o, onward.block);
-                store6(plane_fold + 3 * k, o, where_else_zero(coupled, folded_j));
-                diagonal = plus(plus(diagonal, onward.block), back.block);
-            } else {
-                to_j = folded_j;
-                to_i = plus_scaled(to_i, plus(back.block, over), real(2.0f));
-            }
+        if (is_bent(k)) {
+            int bend = bend_along(k);
+            far_onward = sheet_spring(bend, o, j + step, spring_scale(bend, o));
+            far_back = sheet_spring(bend, o, i - step, spring_scale(bend, i - step));
+            across = sheet_spring(bend, i, j, spring_scale(bend, i)).block;
+            energy = energy + far_onward.energy;
+            taut = taut + counted_taut(far_onward);
         }
-        diagonal = plus(plus(diagonal, to_j), to_i);
-        // A coupling to a pinned node is a support of this one.
-        real held_j = choose(load(plane_mass, j) > 0.0f, real(0.0f), real(1.0f));
-        real held_i = choose(load(plane_mass, i) > 0.0f, real(0.0f), real(1.0f));
-        row_sum = plus_scaled(plus_scaled(row_sum, to_j, held_j), to_i, held_i);
-        store6(plane_block + 6 * k, o, where_else_zero(coupled, to_j));
+        node = with_springs(node, k, o, onward, back, far_onward, far_back, across);
     }
+    leave_gathered(o, node, energy, taut);
+}
+
+// The last look of a step, which no linear system follows: energies alone.
+KERNEL void sheet_energy(int o)
+{
+    real energy = real(0.0f), taut = real(0.0f);
+    UNROLL for (int k = 0; k < 4; ++k) {
+        int step = forward_offset(k);
+        if (sheet_has(k)) {
+            SpringShare onward = sheet_spring(k, o, o + step, spring_scale(k, o));
+            energy = energy + onward.energy;
+            taut = taut + counted_taut(onward);
+        }
+        if (is_bent(k)) {
+            int bend = bend_along(k);
+            SpringShare onward = sheet_spring(bend, o, o + 2 * step, spring_scale(bend, o));
+            energy = energy + onward.energy;
+            taut = taut + counted_taut(onward);
+        }
+    }
+    sheet_node(o);
     store(plane_active, o, taut);
-    store6(plane_row_sum, o, where_else_zero(is_free, row_sum));
-    store6(plane_factor, o, where_else_zero(is_free, factored(diagonal, mass)));
-    store3(plane_r, o, choose(is_free, r, vec3(real(0.0f), real(0.0f), real(0.0f))));
     sums[0] = sums[0] + energy;
-    sums[1] = sums[1] + 0.5f * mass * dot3(ahead, ahead);
-    sums[2] = sums[2] + choose(is_free, contact.energy, real(0.0f));
 }
 
 // B (x_i - x_j) of the coupling from a node to its forward neighbour k; j is left with the negative of it.

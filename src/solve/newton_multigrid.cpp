@@ -25,9 +25,9 @@ public:
     void step()
     {
         add(Pass::step_begin);
-        evaluate(Guard::none, 1);
+        evaluate(Guard::none, first_look);
         add(Pass::solve_begin);
-        for (std::uint32_t k = 0; k < newton_most(); ++k) newton_iteration();
+        for (std::uint32_t k = 1; k <= newton_most(); ++k) newton_iteration(k == newton_most());
         add(Pass::step_end);
         add(Pass::solve_end);
     }
@@ -41,7 +41,7 @@ public:
         add(Pass::acad_begin, Guard::idle);
         evaluate(Guard::idle);
         add(Pass::solve_begin);
-        for (std::uint32_t k = 0; k < newton_most(); ++k) newton_iteration();
+        for (std::uint32_t k = 1; k <= newton_most(); ++k) newton_iteration(k == newton_most());
         add(Pass::acad_end, Guard::idle);
         add(Pass::solve_end);
     }
@@ -50,7 +50,7 @@ public:
     void linear_system()
     {
         add(Pass::step_begin);
-        evaluate(Guard::none, 1);
+        evaluate(Guard::none, first_look);
         add(Pass::solve_begin);
     }
 
@@ -87,10 +87,10 @@ private:
     }
 
     /// Energy, forces and operator at the displacement t.
-    void evaluate(Guard guard, std::uint32_t first_look = 0)
+    void evaluate(Guard guard, std::uint32_t look = 0)
     {
         if (on_mesh_) add(Pass::mesh_springs, guard);
-        add(on_mesh_ ? Pass::mesh_gather : Pass::sheet_gather, guard, 0, first_look);
+        add(on_mesh_ ? Pass::mesh_gather : Pass::sheet_gather, guard, 0, look);
     }
 
     void coarsen()
@@ -102,7 +102,7 @@ private:
         add(on_mesh_ ? Pass::mesh_bottom_factor : Pass::bottom_factor, Guard::newton, level_count_ - 1);
     }
 
-    void newton_iteration()
+    void newton_iteration(bool is_last)
     {
         prepare_linear_solve();
         for (std::uint32_t k = 0; k < cloth_.newton.linear_iterations; ++k) linear_iteration();
@@ -110,7 +110,7 @@ private:
         add(Pass::newton_move, Guard::newton);
         for (std::uint32_t k = 0; k < search_tries; ++k) {
             if (k > 0) add(Pass::search_move, Guard::search);
-            evaluate(Guard::search);
+            evaluate(Guard::search, is_last ? last_look : 0);
             add(Pass::search_check, Guard::search);
         }
         add(Pass::newton_check, Guard::newton);

@@ -204,6 +204,20 @@ inline Floats every_lane(Floats a, Floats b)
     return __builtin_shuffle(a, b, lanes);
 }
 
+/// Lanes 0, 2, ... of a, then of b. With 8 lanes in two steps, of which none crosses halves and moves lanes
+/// of both.
+template <int W, class Floats>
+inline Floats even_lanes(Floats a, Floats b)
+{
+    if constexpr (W == 8) {
+        using Integers = typename LaneTypes<W>::Integers;
+        const Floats pairs = __builtin_shuffle(a, b, Integers{0, 2, 8, 10, 4, 6, 12, 14});
+        return __builtin_shuffle(pairs, Integers{0, 1, 4, 5, 2, 3, 6, 7});
+    } else {
+        return every_lane<W, 0, 2>(a, b);
+    }
+}
+
 /// By turns a lane of a and one of b, from lane `first` on.
 template <int W, int first, class Floats>
 inline Floats lanes_by_turns(Floats a, Floats b)
@@ -219,7 +233,7 @@ struct Lanes<Pack<W>> {
     using T = Pack<W>;
     static constexpr int count = W;
     static T load(const float* p) { return T::load(p); }
-    static T load_even(const float* p) { return every_lane<W, 0, 2>(T::load(p).lanes, T::load(p + W).lanes); }
+    static T load_even(const float* p) { return even_lanes<W>(T::load(p).lanes, T::load(p + W).lanes); }
     static void store(float* p, T a) { a.store(p); }
     static void add_by_turns(float* p, T even, T odd, const float* where)
     {

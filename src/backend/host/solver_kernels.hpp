@@ -180,7 +180,8 @@ struct SolverKernels {
         Lanes<T>::store(context.next_velocity.z + o, v.z);
     }
 
-    bool is_first_look() const { return is_cloth_ && detail_ == 1; }
+    bool is_first_look() const { return is_cloth_ && detail_ == first_look; }
+    bool is_last_look() const { return detail_ == last_look; }
     bool is_acad() const { return constants.is_acad; }
     bool acad_has_memory() const { return constants.acad_has_memory; }
     bool acad_has_compression() const { return constants.acad_below2 > 0; }
@@ -285,7 +286,9 @@ struct SolverKernels {
         using K = SolverKernels;
         switch (pass) {
             case Pass::step_begin: return nodes<&K::step_begin>(pass, begin, end);
-            case Pass::sheet_gather: return nodes<&K::sheet_gather>(pass, begin, end);
+            case Pass::sheet_gather:
+                if (is_last_look()) return nodes<&K::sheet_energy>(pass, begin, end);
+                return gathers(pass, begin, end);
             case Pass::sheet_coarsen: return cells<&K::sheet_coarsen>(begin, end, level.rows, level.columns);
             case Pass::linear_begin: return nodes<&K::linear_begin>(pass, begin, end);
             case Pass::level_smooth:
@@ -479,58 +482,8 @@ private:
         }
     }
 
-    /// A pass that begins with what the operator makes of a vector. The force of a coupling is computed once:
-    /// the row that it leads to finds it in the row before, and takes it with the other sign, as
-    /// sum_of_forces says.
-    template <auto kernel, auto leave>
-    void products(Pass pass, int x, int begin, int end)
-    {
-        if (Lanes<T>::count == 1 || level.columns > segment_columns || exact_bend())
-            return nodes<kernel>(pass, begin, end);
-        constexpr int pad = 16, kinds = 12;  // four couplings of three coordinates
-        constexpr int pitch = segment_columns + 2 * pad;
-        Number forces[2 * kinds * pitch];
-        for (int kind = 0; kind < 2 * kinds; ++kind)
-            for (int k = 0; k < pad; ++k)
-                forces[kind * pitch + k] = forces[kind * pitch + pad + level.columns + k] = Number(0);
-        const auto row_of = [&](int row) { return forces + (row & 1) * kinds * pitch + pad; };
-        SolverKernels self = *this;
-        const auto make_forces = [&](int row) {
-            Number* to = row_of(row);
-            for (int column = 0, o = level_offset(row, 0); column < level.columns;
-                 column += Lanes<T>::count, o += Lanes<T>::count)
-                UNROLL for (int k = 0; k < 4; ++k)
-                {
-                    const vec3 f = self.coupling_force(plane_block + 6 * k, k, x, o);
-                    put3(to + 3 * k * pitch + column, pitch, f.x, f.y, f.z);
-                }
-        };
-        const SumSlots slots = is_cloth_ ? sum_slots_of(pass) : SumSlots{};
-        make_forces(begin - 1);
-        for (int row = begin; row < end; ++row) {
-            make_forces(row);
-            const Number *now = row_of(row), *before = row_of(row - 1);
-            const int first = level_offset(row, 0);
-            const auto at_node = [&, now, before, first](int column) {
-                constexpr int shifts[] = {-1, 1, 0, -1};
-                vec3 ahead[4], behind[4];
-                UNROLL for (int k = 0; k < 4; ++k)
-                {
-                    const Number* from = k == 0 ? now : before;
-                    ahead[k] = three<&Lanes<T>::load>(now + 3 * k * pitch + column, pitch);
-                    behind[k] = three<&Lanes<T>::load>(from + 3 * k * pitch + column + shifts[k], pitch);
-                }
-                (self.*leave)(first + column, self.sum_of_forces(x, first + column, ahead, behind));
-            };
-            for (int group = 0; group < level.columns; group += sum_columns) {
-                const int last = group + sum_columns < level.columns ? group + sum_columns : level.columns;
-                if (slots.count > 0)
-                    self.summed(slots, part_of(row, group), group, last, at_node);
-                else
-                    for (int column = group; column < last; column += Lanes<T>::count) at_node(column);
-            }
-        }
-    }
+#include "backend/host/sheet_rows.inl"
+
     template <auto kernel>
     void cells(int begin, int end, int rows, int columns)
     {

@@ -148,6 +148,7 @@ real linear_tolerance() { return solver.tolerances.x; }
 real newton_tolerance() { return solver.tolerances.y; }
 
 bool is_first_look() { return push.level == 0u && push.detail == 1u; }
+bool is_last_look() { return push.detail == 2u; }
 bool is_acad() { return solver.acad_near.z != 0.0f; }
 bool acad_has_memory() { return solver.acad_near.w != 0.0f; }
 bool acad_has_compression() { return solver.acad_above_below.y > 0.0f; }
