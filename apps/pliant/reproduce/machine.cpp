@@ -77,12 +77,12 @@ std::optional<MachineHere> machine_here(Machine machine)
     switch (machine) {
         case Machine::serial:
             here.title = "serial";
-            here.device = "C++, one thread, list of springs";
+            here.device = "one thread, list of springs, C++";
             break;
         case Machine::cpu:
             here.title = "cpu";
             here.options.backend = Backend::cpu;
-            here.device = instruction_set;
+            here.device = "cpu backend, " + instruction_set;
             break;
         case Machine::vulkan: {
             const auto& device = gpu ? gpu : software;

@@ -13,6 +13,7 @@ import matplotlib
 
 matplotlib.use("svg")
 import matplotlib.pyplot as plt
+from matplotlib import ticker
 
 OURS = ["#1f5fa8", "#2a9d5c", "#7b4bab", "#c23b4e", "#5a6b7a", "#0f8b8d"]
 THEIRS = "#d98200"
@@ -69,6 +70,10 @@ def lines(axes, document, table):
                 colour += 1
     axes.set_xscale("log")
     axes.set_yscale("log")
+    for axis in axes.xaxis, axes.yaxis:
+        axis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5), numticks=20))
+        axis.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:,.10g}"))
+        axis.set_minor_formatter(ticker.NullFormatter())
     axes.set_xlabel(plot["x_title"])
     if "real_time" in plot:
         axes.axhline(plot["real_time"], color="#999", linewidth=0.8, linestyle=":")
@@ -82,31 +87,33 @@ def bars(axes, document, table):
     columns = table.values_of(plot["y"])
     names = [", ".join(row[k] for k in table.labels()) for row in table.rows]
     width = 0.8 / len(columns)
-    smallest = min((v for row in table.rows for _, _, c in columns if (v := number(row[c])) and v > 0), default=1)
-    largest = max((v for row in table.rows for _, _, c in columns if (v := number(row[c])) is not None), default=1)
+    values = [v for row in table.rows for _, _, c in columns if (v := number(row[c])) is not None]
+    smallest, largest = min((v for v in values if v > 0), default=1), max(values, default=1)
+    bottom, top = (smallest / 6, largest * 6) if plot.get("log") else (0, 1.15 * largest)
     ours = 0
     for k, (source, title, column) in enumerate(columns):
         theirs = source == "theirs"
+        named = False
         for r, row in enumerate(table.rows):
-            value = number(row[column])
-            if value is None:
+            if not row[column]:
                 continue
+            value = number(row[column])
             at = r + (k - (len(columns) - 1) / 2) * width
-            shown = max(value, smallest / 3) if plot.get("log") else value
-            axes.bar(at, shown, width * 0.95, color=THEIRS if theirs else OURS[ours % 6], hatch="//" if theirs else None,
-                     edgecolor="white", label=title.split(":")[0] if r == first_row(table, column) else None)
-            axes.annotate(row[column], (at, shown), ha="center", va="bottom", fontsize=7)
+            shown = top if value is None else max(value, bottom)  # a word: it diverged
+            axes.bar(at, shown - bottom, width * 0.95, bottom=bottom, color=THEIRS if theirs else OURS[ours % 6],
+                     hatch="//" if theirs else "xx" if value is None else None, edgecolor="white",
+                     label=None if named else title.split(":")[0])
+            named = True
+            middle = (bottom * top) ** 0.5 if plot.get("log") else (bottom + top) / 2
+            axes.annotate(row[column], (at, middle if value is None else shown), ha="center", va="bottom", fontsize=7,
+                          bbox={"color": "white", "pad": 1} if value is None else None)
         ours += not theirs
     if plot.get("log"):
         axes.set_yscale("log")
-        axes.set_ylim(smallest / 6, largest * 6)
+    axes.set_ylim(bottom, top)
     axes.set_xticks(range(len(names)))
     axes.set_xticklabels(names, fontsize=8, rotation=20 if max(map(len, names)) * len(names) > 90 else 0,
                          ha="right" if max(map(len, names)) * len(names) > 90 else "center")
-
-
-def first_row(table, column):
-    return next(r for r, row in enumerate(table.rows) if number(row[column]) is not None)
 
 
 def draw(document, file):
@@ -118,11 +125,12 @@ def draw(document, file):
     handles, labels = axes.get_legend_handles_labels()
     if len(labels) > 1:
         axes.legend(fontsize=8, loc="center left", bbox_to_anchor=(1.01, 0.5), frameon=False)
-    devices = "; ".join(f"{machine['title']}: {machine['device']}" for machine in document["machines"])
+    devices = "; ".join(("" if machine["title"] == "ours" else f"{machine['title']}: ") + machine["device"]
+                        for machine in document["machines"])
     quick = "; quick run" if document["quick"] else ""
-    figure.text(0.01, 0.005, f"theirs: GTX 1070, i7-7700 (compare ratios, not absolute numbers)   ours: {devices}{quick}",
-                fontsize=6.5, color="#555")
-    figure.tight_layout(rect=(0, 0.03, 1, 1))
+    figure.text(0.01, 0.005, f"theirs: on a GTX 1070 and an i7-7700; compare ratios, not absolute numbers\n"
+                f"ours: on {devices}{quick}", fontsize=6.5, color="#555")
+    figure.tight_layout(rect=(0, 0.05, 1, 1))
     partial = file.with_suffix(".part")
     figure.savefig(partial, format="svg", metadata={"Date": None})
     os.replace(partial, file)

@@ -22,9 +22,9 @@ constexpr Quantity quantities[] = {
     {"frames_per_second", "frames/s", "",
      [](const Measurement& m) { return number_text(m.frames_per_second); }},
     {"stretch_peak_percent", "largest stretch", "%",
-     [](const Measurement& m) { return if_measured(m, percent(m.stretch_peak)); }},
+     [](const Measurement& m) { return if_measured(m, m.finite ? percent(m.stretch_peak) : "diverged"); }},
     {"stretch_last_percent", "largest stretch in the last second", "%",
-     [](const Measurement& m) { return if_measured(m, m.finite ? percent(m.stretch_last) : ""); }},
+     [](const Measurement& m) { return if_measured(m, m.finite ? percent(m.stretch_last) : "diverged"); }},
     {"diverged_in_frame", "diverged in frame", "",
      [](const Measurement& m) {
          return m.finite ? std::string("-") : number_text(static_cast<double>(m.bad_frame));

@@ -222,9 +222,11 @@ void write_tables(Format& format, const Json& document)
 std::string devices_of(const Json& document)
 {
     std::string text;
-    for (const Json& machine : document["machines"])
-        text += (text.empty() ? "" : "; ") + machine["title"].get<std::string>() + ": " +
+    for (const Json& machine : document["machines"]) {
+        const std::string title = machine["title"];
+        text += (text.empty() ? "" : "; ") + (title == "ours" ? "" : title + ": ") +
                 machine["device"].get<std::string>();
+    }
     return text;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <ctime>
 #include <fstream>
 #include <set>
@@ -49,6 +50,15 @@ std::filesystem::path document_file(const Experiment& experiment, const Circumst
     return here.out / "data" / (experiment.id + ".json");
 }
 
+/// What a cell says as a number; nothing for an empty one and for words.
+std::optional<double> number_of(const std::string& cell)
+{
+    char* end = nullptr;
+    const double value = std::strtod(cell.c_str(), &end);
+    if (cell.empty() || *end != '\0') return std::nullopt;
+    return value;
+}
+
 /// A table that grows by rows of texts, one for each column.
 class Table {
 public:
@@ -59,7 +69,21 @@ public:
     }
     void add_row(Json cells) { rows_.push_back(std::move(cells)); }
     std::size_t width() const { return columns_.size(); }
-    Json json() const { return {{"columns", columns_}, {"rows", rows_}}; }
+    /// Without the columns that nothing stands in.
+    Json json() const
+    {
+        Json columns = Json::array(), rows = Json::array();
+        std::vector<std::size_t> kept;
+        for (std::size_t c = 0; c < width(); ++c)
+            if (std::any_of(rows_.begin(), rows_.end(), [c](const Json& row) { return row[c] != ""; }))
+                kept.push_back(c);
+        for (const std::size_t c : kept) columns.push_back(columns_[c]);
+        for (const Json& row : rows_) {
+            Json& cells = rows.emplace_back(Json::array());
+            for (const std::size_t c : kept) cells.push_back(row[c]);
+        }
+        return {{"columns", columns}, {"rows", rows}};
+    }
     const Json& rows() const { return rows_; }
     const Json& columns() const { return columns_; }
 
@@ -195,9 +219,9 @@ private:
             for (std::size_t r = 0; r < count; ++r) {
                 auto other = keys_[r];
                 other[mean_axis] = "mean";
-                const std::string cell = table_.rows()[r][column];
-                if (other != group || cell.empty()) continue;
-                sum += std::stod(cell);
+                const auto value = number_of(table_.rows()[r][column]);
+                if (other != group || !value) continue;
+                sum += *value;
                 ++values;
             }
             cells.push_back(source == "case" || values == 0 ? "" : number_text(sum / values));
@@ -234,9 +258,9 @@ Json findings_of(const Experiment& experiment, const Json& table)
             if (columns[c]["name"] != finding["quantity"] || columns[c]["source"] == "theirs") continue;
             double largest = 0;
             for (const Json& row : table["rows"]) {
-                const std::string value = row[c], size = row[measure];
-                if (value.empty() || std::stod(value) < finding["at_least"].get<double>()) continue;
-                largest = std::max(largest, std::stod(size));
+                const auto value = number_of(row[c]), size = number_of(row[measure]);
+                if (!value || !size || *value < finding["at_least"].get<double>()) continue;
+                largest = std::max(largest, *size);
             }
             findings.push_back(columns[c]["source"].get<std::string>() + ": " +
                                finding["text"].get<std::string>() + ": " +
@@ -288,7 +312,7 @@ Json measured(const Experiment& experiment, const Circumstances& here)
     document["machines"] = Json::array();
     for (const MachineHere& machine : machines)
         document["machines"].push_back({{"title", machine.machine == Machine::best ? "ours" : machine.title},
-                                        {"device", machine.title + ", " + machine.device},
+                                        {"device", machine.device},
                                         {"software", machine.software}});
     document["tables"] = Json::array({results.table()});
     document["findings"] = findings_of(experiment, results.table());
