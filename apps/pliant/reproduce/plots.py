@@ -111,6 +111,7 @@ def bars(axes, document, table):
     if plot.get("log"):
         axes.set_yscale("log")
     axes.set_ylim(bottom, top)
+    axes.set_xlabel(", ".join(table.columns[k]["title"] for k in table.labels()))
     axes.set_xticks(range(len(names)))
     axes.set_xticklabels(names, fontsize=8, rotation=20 if max(map(len, names)) * len(names) > 90 else 0,
                          ha="right" if max(map(len, names)) * len(names) > 90 else "center")

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "comparison_table.hpp"
 #include "embedded_texts.hpp"
 #include "pliant/version.hpp"
 #include "result.hpp"
@@ -155,7 +156,7 @@ public:
         for (const Json& row : rows) {
             text_ += "<tr>";
             for (std::size_t c = 0; c < row.size(); ++c)
-                text_ += "<td" + class_of(sources[c]) + ">" + escaped(row[c]) + "</td>";
+                text_ += "<td" + class_of(sources[c], row[c]) + ">" + escaped(row[c]) + "</td>";
             text_ += "</tr>\n";
         }
         text_ += "</table></div>\n";
@@ -197,9 +198,11 @@ public:
     }
 
 private:
-    static std::string class_of(const std::string& source)
+    static std::string class_of(const std::string& source, const std::string& cell = "")
     {
-        return source == "theirs" ? " class=\"theirs\"" : source == "case" ? " class=\"case\"" : "";
+        const bool is_word = !cell.empty() && cell.find_first_of("0123456789") != 0;
+        const std::string names = std::string(source == "theirs" ? "theirs " : "") + (is_word ? "word" : "");
+        return names.empty() ? "" : " class=\"" + names + "\"";
     }
     std::filesystem::path out_;
     std::string text_;

@@ -86,6 +86,79 @@ double seconds_since(std::chrono::steady_clock::time_point start)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// Runs what is asked for and not yet done.
+class Runs {
+public:
+    Runs(std::vector<const Experiment*> list, Circumstances here)
+        : list_(std::move(list)), here_(std::move(here))
+    {
+    }
+
+    /// False when it was interrupted.
+    bool all()
+    {
+        for (std::size_t k = 0; k < list_.size(); ++k) {
+            const std::string name =
+                "[" + std::to_string(k + 1) + "/" + std::to_string(list_.size()) + "] " + list_[k]->id;
+            if (finished(*list_[k], here_)) {
+                ++repeated_;
+                std::printf("%s: done before\n", name.c_str());
+            } else if (!one(*list_[k], name)) {
+                return false;
+            }
+            ++done_;
+        }
+        return true;
+    }
+
+    std::size_t done() const { return done_; }
+    std::size_t repeated() const { return repeated_; }
+
+private:
+    bool one(const Experiment& experiment, const std::string& name)
+    {
+        const auto start = std::chrono::steady_clock::now();
+        std::unique_ptr<Progress> progress;
+        here_.progress = [&](std::size_t done, std::size_t cases, const std::string& note) {
+            if (!progress) progress = std::make_unique<Progress>(cases, false, "case");
+            progress->update(done, name + ": " + note);
+        };
+        try {
+            if (here_.interrupted()) return false;
+            run_experiment(experiment, here_);
+        } catch (const Interruption&) {
+            return false;
+        }
+        progress.reset();
+        std::printf("%s: %.1f s\n", name.c_str(), seconds_since(start));
+        std::fflush(stdout);
+        return true;
+    }
+
+    std::vector<const Experiment*> list_;
+    Circumstances here_;
+    std::size_t done_ = 0, repeated_ = 0;
+};
+
+/// Of all experiments that are done in the folder, asked for now or before. Tells what is missing.
+void report(const Circumstances& here)
+{
+    std::vector<Json> documents;
+    for (const Experiment& experiment : experiments())
+        if (auto document = finished(experiment, here)) documents.push_back(std::move(*document));
+    std::vector<std::string> notes;
+    if (here.quick)
+        notes.push_back(
+            "A quick run: small sizes and few frames, to see that everything works; its speeds are no "
+            "measurement.");
+    const std::string no_figures = draw_figures(here.out, documents);
+    if (!no_figures.empty()) {
+        notes.push_back(no_figures);
+        std::fprintf(stderr, "warning: %s\n", no_figures.c_str());
+    }
+    write_report(here.out, documents, notes);
+}
+
 }  // namespace
 
 int reproduce_command(const ReproduceOptions& options)
@@ -101,65 +174,21 @@ int reproduce_command(const ReproduceOptions& options)
     here.quick = options.quick;
     here.out = options.out;
     here.meshes = options.meshes;
+    here.interrupted = [] { return InterruptGuard::signal_number() != 0; };
     if (!options.meshes.empty() && !std::filesystem::is_directory(here.meshes))
         throw Error(ErrorKind::bad_input, "--meshes '" + options.meshes + "' is no folder");
     make_folders(here.out);
 
     const InterruptGuard guard;
-    here.interrupted = [] { return InterruptGuard::signal_number() != 0; };
     const auto start = std::chrono::steady_clock::now();
-    std::vector<Json> documents;
-    std::size_t number = 0, repeated = 0;
-    bool interrupted = false;
-    for (const Experiment* experiment : list) {
-        ++number;
-        const auto began = std::chrono::steady_clock::now();
-        const std::string name =
-            "[" + std::to_string(number) + "/" + std::to_string(list.size()) + "] " + experiment->id;
-        if (auto document = finished(*experiment, here)) {
-            documents.push_back(std::move(*document));
-            ++repeated;
-            std::printf("%s: done before\n", name.c_str());
-            continue;
-        }
-        if (here.interrupted()) {
-            interrupted = true;
-            break;
-        }
-        std::unique_ptr<Progress> progress;
-        here.progress = [&](std::size_t done, std::size_t cases, const std::string& note) {
-            if (!progress) progress = std::make_unique<Progress>(cases, false, "case");
-            progress->update(done, name + ": " + note);
-        };
-        try {
-            documents.push_back(run_experiment(*experiment, here));
-        } catch (const Interruption&) {
-            interrupted = true;
-            break;
-        }
-        progress.reset();
-        std::printf("%s: %.1f s\n", name.c_str(), seconds_since(began));
-        std::fflush(stdout);
-    }
-
-    std::vector<std::string> notes;
-    if (options.quick)
-        notes.push_back(
-            "A quick run: small sizes and few frames, to see that everything works; its figures are no "
-            "measurement.");
-    const std::string no_figures = draw_figures(here.out, documents);
-    if (!no_figures.empty()) {
-        notes.push_back(no_figures);
-        std::fprintf(stderr, "warning: %s\n", no_figures.c_str());
-    }
-    write_report(here.out, documents, notes);
-    std::printf("%zu of %zu experiments, %zu of them done before, %.0f s: %s\n", documents.size(),
-                list.size(), repeated, seconds_since(start), (here.out / "report.html").string().c_str());
-    if (interrupted) {
-        std::fprintf(stderr, "interrupted; the same command goes on with the experiment that was cut off\n");
-        return 128 + InterruptGuard::signal_number();
-    }
-    return 0;
+    Runs runs(list, here);
+    const bool all = runs.all();
+    report(here);
+    std::printf("%zu of %zu experiments, %zu of them done before, %.0f s: %s\n", runs.done(), list.size(),
+                runs.repeated(), seconds_since(start), (here.out / "report.html").string().c_str());
+    if (all) return 0;
+    std::fprintf(stderr, "interrupted; the same command goes on with the experiment that was cut off\n");
+    return 128 + InterruptGuard::signal_number();
 }
 
 }  // namespace pliant::tool

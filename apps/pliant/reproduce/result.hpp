@@ -33,7 +33,5 @@ Json pass_tables();
 
 /// Writes a text so that it appears under its name only when it is complete.
 void write_text(const std::filesystem::path& file, const std::string& text);
-/// A table of a document (columns, rows) as CSV.
-std::string csv_of(const Json& table);
 
 }  // namespace pliant::tool::reproduce
