@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <cstdio>
 
 #include "../painter.hpp"
 #include "pliant/error.hpp"
@@ -120,9 +120,29 @@ void advance(Lane& lane, std::uint64_t call, const Interrupted& interrupted)
     lane.seconds_per_frame.push_back(seconds / static_cast<double>(lane.batch));
 }
 
+/// Sets a lane up and warms it, and sees how many frames the time allows.
+void prepare(Lane& lane, const Experiment& experiment, const Scene& scene, bool quick,
+             const MachineHere& machine, const Interrupted& interrupted)
+{
+    lane.stepper = make_stepper(scene, machine);
+    lane.batch = 1;
+    advance(lane, experiment.batch, interrupted);  // makes programs
+    lane.seconds_per_frame.clear();
+    lane.frames = 0;
+    lane.spent = 0;
+    const double one = std::max(lane.stepper->advance(1), 1e-7);
+    const double affordable = experiment.seconds.of(quick) / one / batches;
+    lane.batch = static_cast<std::uint64_t>(
+        std::clamp(affordable, 1.0, std::max(experiment.frames.of(quick) / batches, 1.0)));
+    // The program of a longer call is made before it is timed.
+    if (experiment.batch == 0 && lane.batch > 1 && machine.machine != Machine::serial)
+        lane.stepper->advance(lane.batch);
+}
+
 }  // namespace
 
-CaseScene scene_of(const Experiment& experiment, const Case& each, const std::filesystem::path& meshes)
+CaseScene scene_of(const Experiment& experiment, const Case& each, bool quick,
+                   const std::filesystem::path& meshes)
 {
     CaseScene made;
     made.overrides = each.set;
@@ -143,6 +163,7 @@ CaseScene scene_of(const Experiment& experiment, const Case& each, const std::fi
         const bool is_mesh = text.rfind("bodies[0].mesh.file=", 0) == 0;
         made.command += " --set " + quoted_for_shell(is_mesh ? "bodies[0].mesh.file=" + each.mesh : text);
     }
+    made.command += " --frames " + number_text(experiment.frames.of(quick));
     return made;
 }
 
@@ -152,28 +173,18 @@ std::vector<Measurement> measure_speed(const Experiment& experiment, const Scene
 {
     std::vector<Measurement> measurements(machines.size());
     std::vector<Lane> lanes(machines.size());
-    const auto frames = static_cast<std::uint64_t>(experiment.frames.of(quick));
     const double budget = experiment.seconds.of(quick);
     for (std::size_t k = 0; k < machines.size(); ++k) {
         if (machines[k].software && node_count_of(scene) > experiment.software_nodes.of(quick)) {
             measurements[k].absent = "larger cases are left out on a software device";
             continue;
         }
-        Lane& lane = lanes[k];
-        lane.stepper = make_stepper(scene, machines[k]);
-        // A first call makes programs and warms caches; it also tells how many frames the time allows.
-        lane.batch = 1;
-        advance(lane, experiment.batch, interrupted);
-        lane.seconds_per_frame.clear();
-        double one = lane.stepper->advance(1);
-        one = std::max(one, 1e-7);
-        const auto affordable = static_cast<std::uint64_t>(budget / one);
-        lane.batch =
-            std::clamp<std::uint64_t>(affordable / batches, 1, std::max<std::uint64_t>(frames / batches, 1));
-        lane.frames = 0;
-        // The program of a longer call is made before it is timed.
-        if (experiment.batch == 0 && lane.batch > 1 && machines[k].machine != Machine::serial)
-            lane.stepper->advance(lane.batch);
+        try {
+            prepare(lanes[k], experiment, scene, quick, machines[k], interrupted);
+        } catch (const Error& error) {  // a device that is too small, say: the others go on
+            lanes[k].stepper.reset();
+            measurements[k].absent = error.what();
+        }
     }
     for (int batch = 0; batch < batches; ++batch)
         for (Lane& lane : lanes) {
@@ -185,7 +196,12 @@ std::vector<Measurement> measure_speed(const Experiment& experiment, const Scene
         Lane& lane = lanes[k];
         if (!lane.stepper) continue;
         Measurement& m = measurements[k];
-        if (Simulation* simulation = lane.stepper->simulation()) take(m, *simulation, lane.summary);
+        if (Simulation* simulation = lane.stepper->simulation()) try {
+                take(m, *simulation, lane.summary);
+            } catch (const Error& error) {
+                m.absent = error.what();
+                continue;
+            }
         m.frames = lane.frames;
         m.frames_per_second = 1 / std::max(median(lane.seconds_per_frame), 1e-12);
         if (!m.finite) m.absent = "diverged in frame " + std::to_string(m.bad_frame);

@@ -18,8 +18,8 @@ struct Interruption {};
 struct Picture {
     Image image;
     std::uint64_t frame = 0;
-    double time = 0;        ///< s
-    bool diverged = false;  ///< the last that could be drawn, of a run that diverged before the wanted time
+    double time = 0;       ///< s
+    bool is_last = false;  ///< that could be drawn, before a wanted time: the run diverged, or went too fast
 };
 
 /// One case on one machine.
@@ -45,7 +45,8 @@ struct CaseScene {
     std::string
         command;  ///< with which pliant run makes it, but for the backend; meshes without their folder
 };
-CaseScene scene_of(const Experiment& experiment, const Case& each, const std::filesystem::path& meshes);
+CaseScene scene_of(const Experiment& experiment, const Case& each, bool quick,
+                   const std::filesystem::path& meshes);
 
 /// Frames in batches, the machines in turn; one entry for each machine.
 std::vector<Measurement> measure_speed(const Experiment& experiment, const Scene& scene, bool quick,

@@ -90,7 +90,9 @@ void keep_pictures(const Experiment& experiment, const Case& each, const Measure
             experiment.id + "_" + std::to_string(number) + "_" + std::to_string(k) + ".png";
         write_png(here.out / "pictures" / file, picture.image);
         std::string caption = name_of_case(experiment, each) + ": " + number_text(picture.time) + " s";
-        if (picture.diverged) caption += ", before it diverged in frame " + std::to_string(m.bad_frame);
+        if (picture.is_last)
+            caption += m.finite ? std::string(", later too fast to be drawn")
+                                : ", before it diverged in frame " + std::to_string(m.bad_frame);
         pictures.push_back({{"file", file}, {"case", name_of_case(experiment, each)}, {"caption", caption}});
     }
 }
@@ -104,7 +106,7 @@ Json measured(const Experiment& experiment, const Circumstances& here)
     std::string no_pictures;
     for (std::size_t k = 0; k < cases.size(); ++k) {
         here.progress(k, cases.size(), name_of_case(experiment, cases[k]));
-        const CaseScene made = scene_of(experiment, cases[k], here.meshes);
+        const CaseScene made = scene_of(experiment, cases[k], here.quick, here.meshes);
         std::vector<Measurement> measurements;
         if (experiment.kind == "speed")
             measurements = measure_speed(experiment, made.scene, here.quick, machines, here.interrupted);
@@ -163,8 +165,7 @@ std::optional<Json> finished(const Experiment& experiment, const Circumstances& 
     std::ifstream file(document_file(experiment, here));
     if (!file) return std::nullopt;
     const Json document = Json::parse(file, nullptr, false);
-    if (document.is_discarded() || !document.is_object() ||
-        document.value("key", "") != key_of(experiment, here))
+    if (!document.is_object() || !document.contains("key") || document["key"] != key_of(experiment, here))
         return std::nullopt;
     for (const Json& picture : document["pictures"])
         if (!std::filesystem::exists(here.out / "pictures" / picture["file"].get<std::string>()))
