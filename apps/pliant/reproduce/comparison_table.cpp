@@ -147,7 +147,7 @@ Json ComparisonTable::mean_of(const std::vector<std::string>& group, std::size_t
                 ++values;
             }
         }
-        const bool is_meant = source != "case" && values == cases;
+        const bool is_meant = source != "case" && columns_[column]["name"] != "frames" && values == cases;
         cells.push_back(is_meant ? number_text(sum / static_cast<double>(values)) : "");
     }
     return cells;
