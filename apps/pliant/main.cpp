@@ -9,6 +9,7 @@
 #include "commands.hpp"
 #include "pliant/error.hpp"
 #include "pliant/version.hpp"
+#include "reproduce/reproduce_command.hpp"
 
 namespace {
 
@@ -188,6 +189,40 @@ void add_check(CLI::App& app, CheckOptions& options)
         ->needs(repair);
 }
 
+void add_reproduce(CLI::App& app, ReproduceOptions& options)
+{
+    CLI::App* reproduce =
+        app.add_subcommand("reproduce", "Run the experiments of both papers, and write ours beside theirs");
+    reproduce->footer(
+        "Examples:\n"
+        "  pliant reproduce --quick\n"
+        "  pliant reproduce cloth --out cloth_report --only fig07\n"
+        "Writes report.html, report.md and results.csv. What is done is not done again by the same "
+        "command.\n");
+    reproduce->add_option("papers", options.papers, "cloth, volume or all")
+        ->check(CLI::IsMember({"cloth", "volume", "all"}))
+        ->type_name("PAPERS");
+    reproduce->add_flag("--quick", options.quick, "Small and short, in minutes: to see that it works");
+    reproduce->add_option("--out", options.out, "Folder of the report (default: reproduction)")
+        ->check(CLI::Validator(
+            [](const std::string& name) {
+                return std::string(name.empty() ? "the name of the folder is empty" : "");
+            },
+            ""))
+        ->type_name("DIR");
+    reproduce
+        ->add_option("--only", options.only,
+                     "Only the experiments with this in their names (--list); may be repeated")
+        ->type_name("TEXT")
+        ->allow_extra_args(false);
+    reproduce
+        ->add_option("--meshes", options.meshes,
+                     "Folder with bunny_8k.ply, armadillo_15k.ply and spot_31k.ply; without, generated "
+                     "shapes stand in")
+        ->type_name("DIR");
+    reproduce->add_flag("--list", options.list, "Tell the names of the experiments, and do nothing");
+}
+
 int dispatch(int argc, char** argv)
 {
     CLI::App app("Pliant: cloth and soft bodies in real time, on any Vulkan GPU and on the CPU", "pliant");
@@ -199,6 +234,8 @@ int dispatch(int argc, char** argv)
     add_run(app, run_options);
     BenchOptions bench_options;
     add_bench(app, bench_options);
+    ReproduceOptions reproduce_options;
+    add_reproduce(app, reproduce_options);
     app.add_subcommand("list", "The built-in scenes");
     app.add_subcommand("info", "Backends and devices of this machine, with their limits");
     CheckOptions check_options;
@@ -209,15 +246,17 @@ int dispatch(int argc, char** argv)
     } catch (const CLI::Success& success) {
         return app.exit(success);  // --help, --version
     } catch (const CLI::ParseError& error) {
-        const char* command = app.got_subcommand("run")     ? "run "
-                              : app.got_subcommand("bench") ? "bench "
-                              : app.got_subcommand("check") ? "check "
-                                                            : "";
+        const char* command = app.got_subcommand("run")         ? "run "
+                              : app.got_subcommand("bench")     ? "bench "
+                              : app.got_subcommand("check")     ? "check "
+                              : app.got_subcommand("reproduce") ? "reproduce "
+                                                                : "";
         std::fprintf(stderr, "pliant: %s; see 'pliant %s--help'\n", error.what(), command);
         return static_cast<int>(ErrorKind::bad_usage);
     }
     if (app.got_subcommand("run")) return run_command(run_options);
     if (app.got_subcommand("bench")) return bench_command(bench_options);
+    if (app.got_subcommand("reproduce")) return reproduce_command(reproduce_options);
     if (app.got_subcommand("list")) return list_command();
     if (app.got_subcommand("info")) return info_command();
     return check_command(check_options);

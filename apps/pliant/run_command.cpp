@@ -1,20 +1,18 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
-#include <iterator>
 #include <memory>
 
-#include "backend/vulkan/device_state.hpp"
 #include "commands.hpp"
 #include "files/numbered_name.hpp"
+#include "interruption.hpp"
+#include "painter.hpp"
 #include "progress.hpp"
 #include "record/cache_file.hpp"
 #include "record/run_record.hpp"
 #include "render/picture_recorder.hpp"
-#include "render/renderer.hpp"
 
 namespace pliant::tool {
 namespace {
@@ -25,29 +23,6 @@ double seconds_since(Clock::time_point start)
 {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
-
-volatile std::sig_atomic_t interrupted = 0;  // the signal's number
-
-/// While it lives, Ctrl-C and the like end the run after the current frame, with everything written so far
-/// complete.
-class InterruptGuard {
-public:
-    InterruptGuard()
-    {
-        for (std::size_t k = 0; k < std::size(signals); ++k)
-            before_[k] = std::signal(signals[k], [](int number) { interrupted = number; });
-    }
-    ~InterruptGuard()
-    {
-        for (std::size_t k = 0; k < std::size(signals); ++k) std::signal(signals[k], before_[k]);
-    }
-    InterruptGuard(const InterruptGuard&) = delete;
-    InterruptGuard& operator=(const InterruptGuard&) = delete;
-
-private:
-    static constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP};
-    void (*before_[std::size(signals)])(int);
-};
 
 std::string formatted(const char* format, double value)
 {
@@ -81,7 +56,7 @@ public:
         }
         if (recorders_.empty() && !stills_) return;
         try {
-            open_device();
+            painter_ = std::make_unique<Painter>(simulation_);
         } catch (const Error& error) {
             recorders_.clear();
             stills_.reset();
@@ -91,7 +66,7 @@ public:
 
     /// Why there are no pictures though some were asked for; empty when there are.
     const std::string& refusal() const { return refusal_; }
-    std::string device_name() const { return device_ ? device_->info().name : ""; }
+    std::string device_name() const { return painter_ ? painter_->device_name() : ""; }
     double seconds() const { return seconds_; }
 
     /// The state after a frame, 0 being the start.
@@ -106,10 +81,10 @@ public:
         // triangles.
         constexpr double fastest_drawn = 1e6;  // m/s
         if (!wanted || simulation_.report().measures.max_speed > fastest_drawn) return;
-        draw();
+        const Image& image = painter_->draw();
         for (const auto& recorder : recorders_)
-            if (recorder->wants(frame, last)) recorder->add(image_, frame);
-        if (still) stills_->add(image_, frame);
+            if (recorder->wants(frame, last)) recorder->add(image, frame);
+        if (still) stills_->add(image, frame);
         seconds_ += seconds_since(start);
     }
 
@@ -122,44 +97,11 @@ public:
     }
 
 private:
-    void open_device()
-    {
-        device_ = simulation_.device_state() ? simulation_.device_state()->device()
-                                             : std::make_shared<vulkan::Device>(vulkan::DeviceOptions{});
-        const Scene& scene = simulation_.scene();
-        std::vector<ClothTopology> topologies;
-        for (std::size_t c = 0; c < scene.cloth_count(); ++c) {
-            const auto* sheet = std::get_if<SheetOptions>(&scene.cloth(c).shape);
-            topologies.push_back({simulation_.triangles(c),
-                                  static_cast<std::uint32_t>(simulation_.positions(c).size()),
-                                  sheet ? sheet->rows : 0, sheet ? sheet->columns : 0});
-        }
-        renderer_ = std::make_unique<Renderer>(device_, scene, topologies);
-    }
-
-    void draw()
-    {
-        frames_.clear();
-        for (std::size_t c = 0; c < simulation_.scene().cloth_count(); ++c) {
-            // The nodes of soft bodies lie in an order, and against an origin, of their own.
-            const bool direct = simulation_.device_state() && simulation_.body_count() == 0;
-            if (direct)
-                frames_.emplace_back(simulation_.device_state()->drawable(c));
-            else
-                frames_.emplace_back(
-                    HostCloth{simulation_.positions(c), simulation_.normals(c), simulation_.strains(c)});
-        }
-        renderer_->draw(simulation_.time(), frames_, image_);
-    }
-
     Simulation& simulation_;
-    std::shared_ptr<vulkan::Device> device_;
-    std::unique_ptr<Renderer> renderer_;
+    std::unique_ptr<Painter> painter_;
     std::vector<std::unique_ptr<PictureRecorder>> recorders_;
     std::unique_ptr<PictureRecorder> stills_;
     std::vector<std::uint64_t> still_frames_;
-    std::vector<ClothFrame> frames_;
-    Image image_;
     std::string refusal_;
     double seconds_ = 0;
 };
@@ -236,7 +178,8 @@ private:
             if (statistics_) statistics_->add(report, 1000 * (report.wall_seconds - wall_before));
             if (!report.finite) break;
             if (cache_) cache_->add(simulation_, frame);
-            last = frame == frames_ || interrupted;  // asked once, as a Ctrl-C may come at any time
+            last = frame == frames_ ||
+                   InterruptGuard::signal_number() != 0;  // asked once, as a Ctrl-C may come at any time
             pictures_.take(frame, last);
             progress.update(frame,
                             formatted("%.3g x real time", report.simulated_seconds / report.wall_seconds));
@@ -282,6 +225,7 @@ private:
             summary_.write(options_.summary_file, simulation_, seconds_since(start_));
         if (!report.finite) throw Error(ErrorKind::diverged, divergence());
         if (!options_.quiet) say_end();
+        const int interrupted = InterruptGuard::signal_number();
         if (interrupted)
             std::fprintf(stderr, "interrupted after frame %llu; the files are complete up to there\n",
                          static_cast<unsigned long long>(report.frames));

@@ -1,0 +1,153 @@
+// Tables 1 and 2 of the cloth paper beside ours, from the table of passes that this program was built with.
+#include <map>
+
+#include "pliant/error.hpp"
+#include "result.hpp"
+#include "solve/pass.hpp"
+
+namespace pliant::tool::reproduce {
+namespace {
+
+const char* name_of_size(PassSize size)
+{
+    switch (size) {
+        case PassSize::node: return "node";
+        case PassSize::spring: return "spring";
+        case PassSize::block: return "block of 256";
+        case PassSize::level: return "node";
+        case PassSize::cell: return "cell";
+        case PassSize::single: return "once";
+        case PassSize::row: return "row (spring)";
+        case PassSize::scan: return "256 rows";
+        case PassSize::edge: return "edge";
+        case PassSize::finer: return "finer node";
+        case PassSize::fan: return "256 fans";
+        case PassSize::body: return "body";
+    }
+    return "";
+}
+
+const char* name_of_resource(Resource resource)
+{
+    switch (resource) {
+        case Resource::position: return "position";
+        case Resource::velocity: return "velocity";
+        case Resource::next_position: return "next_position";
+        case Resource::next_velocity: return "next_velocity";
+        case Resource::external_force: return "external_force";
+        case Resource::spring_force: return "spring_force";
+        case Resource::colliders: return "colliders";
+        case Resource::measures: return "measures";
+        case Resource::normal: return "normal";
+        case Resource::strain: return "strain";
+        case Resource::multiplier: return "multiplier";
+        case Resource::gradient: return "gradient";
+        case Resource::direction: return "direction";
+        case Resource::blocked: return "blocked";
+        case Resource::rate_sums: return "rate_sums";
+        case Resource::cubic_sums: return "cubic_sums";
+        case Resource::bodies: return "bodies";
+        case Resource::volumes: return "volumes";
+        case Resource::solver: return "solver";
+    }
+    return "";
+}
+
+std::string names_of(std::span<const Resource> resources)
+{
+    std::string text;
+    for (const Resource resource : resources)
+        text += (text.empty() ? "" : ", ") + std::string(name_of_resource(resource));
+    return text;
+}
+
+const PassDescription& pass_named(const std::string& name)
+{
+    for (const PassDescription& pass : all_passes())
+        if (name == pass.name) return pass;
+    throw Error(ErrorKind::bad_usage, "papers.json: there is no pass " + name);
+}
+
+Json column(const char* title, const char* source)
+{
+    return {{"name", title}, {"title", title}, {"unit", ""}, {"source", source}};
+}
+
+bool is_papers(const PassDescription& pass) { return std::string(pass.name).rfind("paper_", 0) == 0; }
+
+/// Theirs and ours, kernel by kernel; then those of ours that have no counterpart.
+Json kernels()
+{
+    Json table;
+    table["title"] = "Table 1: kernels";
+    table["columns"] = {column("their shader", "theirs"),
+                        column("their kernel", "theirs"),
+                        column("their groups", "theirs"),
+                        column("our pass", "ours"),
+                        column("one invocation is", "ours"),
+                        column("reads", "ours"),
+                        column("writes", "ours")};
+    table["rows"] = Json::array();
+    std::map<std::string, int> told;
+    const auto add = [&](const Json& theirs, const std::string& name) {
+        const PassDescription& pass = pass_named(name);
+        table["rows"].push_back({theirs[0], theirs[1], theirs[2], pass.name, name_of_size(pass.size),
+                                 names_of(pass.reads), names_of(pass.writes)});
+        ++told[name];
+    };
+    for (const Json& kernel : papers().at("kernels"))
+        for (const std::string name : kernel["ours"])
+            add({kernel["shader"], kernel["kernel"], kernel["groups"]}, name);
+    for (const PassDescription& pass : all_passes())
+        if (is_papers(pass) && !told[pass.name]) add({"", "", ""}, pass.name);
+    return table;
+}
+
+/// Theirs; then the resources that the passes of the same solver read and write.
+Json buffers()
+{
+    Json table;
+    table["title"] = "Table 2: buffers";
+    table["columns"] = {column("buffer", "theirs and ours"),   column("whose", "theirs and ours"),
+                        column("size", "theirs and ours"),     column("type", "theirs and ours"),
+                        column("what", "theirs and ours"),     column("passes that read it", "ours"),
+                        column("passes that write it", "ours")};
+    table["rows"] = Json::array();
+    for (const Json& buffer : papers().at("buffers"))
+        table["rows"].push_back(
+            {buffer["buffer"], "theirs", buffer["size"], buffer["type"], buffer["what"], "", ""});
+    std::map<Resource, std::pair<int, int>> uses;
+    for (const PassDescription& pass : all_passes()) {
+        if (!is_papers(pass)) continue;
+        for (const Resource resource : pass.reads) ++uses[resource].first;
+        for (const Resource resource : pass.writes) ++uses[resource].second;
+    }
+    for (const auto& [resource, counts] : uses) {
+        const bool arena = resource == Resource::solver;
+        const std::string size =
+            arena ? std::to_string(row_planes) + " m + " + std::to_string(paper_planes) + " n + non-zeros"
+            : resource == Resource::colliders  ? "colliders"
+            : resource == Resource::multiplier ? "n"
+                                               : "3n";
+        const char* what = arena ? "the arena: rows, multipliers, conjugate gradients, matrix, scalars" : "";
+        table["rows"].push_back({name_of_resource(resource), "ours", size, "float", what,
+                                 std::to_string(counts.first), std::to_string(counts.second)});
+    }
+    return table;
+}
+
+}  // namespace
+
+Json pass_tables()
+{
+    Json document;
+    document["machines"] = Json::array();
+    document["tables"] = {kernels(), buffers()};
+    document["findings"] = Json::array();
+    document["notes"] = Json::array();
+    document["commands"] = Json::array();
+    document["pictures"] = Json::array();
+    return document;
+}
+
+}  // namespace pliant::tool::reproduce
