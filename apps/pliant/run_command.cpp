@@ -10,6 +10,7 @@
 #include "backend/vulkan/device_state.hpp"
 #include "commands.hpp"
 #include "files/numbered_name.hpp"
+#include "picture_source.hpp"
 #include "progress.hpp"
 #include "record/cache_file.hpp"
 #include "record/run_record.hpp"
@@ -126,30 +127,13 @@ private:
     {
         device_ = simulation_.device_state() ? simulation_.device_state()->device()
                                              : std::make_shared<vulkan::Device>(vulkan::DeviceOptions{});
-        const Scene& scene = simulation_.scene();
-        std::vector<ClothTopology> topologies;
-        for (std::size_t c = 0; c < scene.cloth_count(); ++c) {
-            const auto* sheet = std::get_if<SheetOptions>(&scene.cloth(c).shape);
-            topologies.push_back({simulation_.triangles(c),
-                                  static_cast<std::uint32_t>(simulation_.positions(c).size()),
-                                  sheet ? sheet->rows : 0, sheet ? sheet->columns : 0});
-        }
-        renderer_ = std::make_unique<Renderer>(device_, scene, topologies);
+        renderer_ = std::make_unique<Renderer>(device_, simulation_.scene(), topologies_of(simulation_));
     }
 
     void draw()
     {
-        frames_.clear();
-        for (std::size_t c = 0; c < simulation_.scene().cloth_count(); ++c) {
-            // The nodes of soft bodies lie in an order, and against an origin, of their own.
-            const bool direct = simulation_.device_state() && simulation_.body_count() == 0;
-            if (direct)
-                frames_.emplace_back(simulation_.device_state()->drawable(c));
-            else
-                frames_.emplace_back(
-                    HostCloth{simulation_.positions(c), simulation_.normals(c), simulation_.strains(c)});
-        }
-        renderer_->draw(simulation_.time(), frames_, image_);
+        source_.gather(simulation_, {});
+        renderer_->draw(simulation_.time(), source_.frames(), image_);
     }
 
     Simulation& simulation_;
@@ -158,7 +142,7 @@ private:
     std::vector<std::unique_ptr<PictureRecorder>> recorders_;
     std::unique_ptr<PictureRecorder> stills_;
     std::vector<std::uint64_t> still_frames_;
-    std::vector<ClothFrame> frames_;
+    PictureSource source_;
     Image image_;
     std::string refusal_;
     double seconds_ = 0;
