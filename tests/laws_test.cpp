@@ -206,6 +206,20 @@ TEST(Integration, PinnedNodeStays)
     EXPECT_EQ(length(v), 0);
 }
 
+TEST(Integration, GrabbedNodeTakesTheSpringOfTheHandImplicitly)
+{
+    // m v' = m v + dt (f + m g + k (t - x - dt v') - c v'), solved for v': the law, with the mass m' in the
+    // step.
+    const double m = 0.3, k = 50, c = 2, dt = 0.125, g = -10, f = 1.5, x = 0.25, v = -0.75, t = 2;
+    const double heavier = m + c * dt + k * dt * dt;
+    const VD begun = D::grabbed_velocity({0, x, 0}, {0, v, 0}, {0, t, 0}, {0, g, 0}, k * dt / heavier,
+                                         (c * dt + k * dt * dt) / heavier, dt);
+    const VD next = D::velocity_step(begun, {0, f, 0}, 1 / heavier, {0, g, 0}, 1.0, dt);
+    const double expected = (m * v + dt * (f + m * g + k * (t - x))) / heavier;
+    EXPECT_NEAR(next.y, expected, 1e-14 * std::abs(expected) * 16);  // some roundings of a double
+    EXPECT_EQ(next.x, 0);
+}
+
 // --- contact
 // ----------------------------------------------------------------------------------------------------------
 

@@ -69,7 +69,7 @@ std::map<Resource, std::vector<float>> results_of(PassRunner& runner, const Clot
                                                   std::span<const PlacedCollider> colliders)
 {
     Program program{1, {}, 0};
-    program.parity_after = append_frame({&model, 1}, 1, 0, program.calls);
+    program.parity_after = append_frame({&model, 1}, 1, 0, program.calls, 0);
     append_drawing(model, 0, program.parity_after, program.calls);
     // A moving pin goes 1 m/s.
     std::vector<std::vector<Vec3>> attached(1);
@@ -77,7 +77,9 @@ std::map<Resource, std::vector<float>> results_of(PassRunner& runner, const Clot
         const Vec3 x = model.positions[a.node];
         attached[0].push_back({x.x + static_cast<float>(dt), x.y, x.z});
     }
-    runner.run(program, {dt, static_cast<std::uint32_t>(colliders.size()), colliders, true, attached});
+    const GrabInput grab{0, model.node_count() - 1, {0.3, 0.2, -0.4}, 11.0, 0.25};
+    runner.run(program,
+               {dt, static_cast<std::uint32_t>(colliders.size()), colliders, true, attached, {}, grab});
     std::map<Resource, std::vector<float>> results;
     std::vector<Resource> computed = {Resource::position, Resource::velocity, Resource::normal,
                                       Resource::strain, Resource::measures};

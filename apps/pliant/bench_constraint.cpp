@@ -271,12 +271,9 @@ BenchCase hanging_case(const BenchOptions& options, const HangingSize& size,
 
 void add_hanging(const BenchOptions& options, std::vector<BenchCase>& cases)
 {
-    std::vector<HangingSize> sizes = {{32, 1e6, 0.3, {}},
-                                      {64, 1e6, 0.3, {}},
-                                      {128, 1e6, 0.3, {100, 150}},
-                                      {128, 1e6, 1.0, {}, 10},
-                                      {256, 2e5, 0.3, {30, 40}},
-                                      {512, 2e5, 0.3, {8}}};
+    std::vector<HangingSize> sizes = {{32, 1e6, 0.3, {}},          {64, 1e6, 0.3, {}},
+                                      {128, 1e6, 0.3, {100, 150}}, {128, 1e6, 1.0, {}, 10},
+                                      {256, 2e5, 0.3, {30, 40}},   {512, 2e5, 0.3, {8}}};
     if (options.quick) sizes = {{16, 1e6, 0.3, {}}, {24, 2e5, 1.0, {}}};
     if (!options.sizes.empty()) sizes.clear();
     for (const std::uint64_t nodes : options.sizes) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pliant/simulation.hpp"
@@ -39,5 +40,35 @@ struct CheckOptions {
     std::string out_file;  ///< for the repaired mesh; empty: it is not kept
 };
 int check_command(const CheckOptions& options);
+
+struct ViewOptions {
+    std::string scene = "cloth_sphere";  ///< or a mesh
+    SimulationOptions simulation;
+    std::vector<std::string> overrides;   ///< path=value
+    std::optional<std::uint64_t> frames;  ///< of the display, after which it ends
+    std::string size;                     ///< WxH in pixels; empty: the scene camera's
+    std::string script_file, log_file, record_file;
+    bool headless = false;
+    bool paused = false;
+};
+int view_command(const ViewOptions& options);
+
+struct RenderOptions {
+    std::string scene;
+    SimulationOptions simulation;
+    std::vector<std::string> overrides;   ///< path=value
+    std::optional<std::uint64_t> frames;  ///< of the scene, instead of its duration
+    std::string camera;                   ///< "x,y,z,target x,y,z[,field of view]"; empty: the scene's
+    std::string size;                     ///< WxH in pixels
+    std::optional<double> frame_rate;     ///< pictures a second; the scene's unless given
+    std::vector<std::string> overlays;    ///< names of overlays
+    std::string compare;                  ///< "method,method"
+    std::string out_file;
+    bool quiet = false;
+};
+int render_command(const RenderOptions& options);
+
+/// "640x360". Throws Error(bad_usage) for anything else, and for sides beyond 16 to 16384 pixels.
+std::pair<std::uint32_t, std::uint32_t> picture_size(const std::string& text);
 
 }  // namespace pliant::tool

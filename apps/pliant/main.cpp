@@ -223,6 +223,97 @@ void add_reproduce(CLI::App& app, ReproduceOptions& options)
     reproduce->add_flag("--list", options.list, "Tell the names of the experiments, and do nothing");
 }
 
+/// Options that view and render have in common with run.
+void add_simulation(CLI::App& app, SimulationOptions& options, std::vector<std::string>& overrides)
+{
+    static const std::map<std::string, Backend> backends = {{"auto", Backend::automatic},
+                                                            {"cpu", Backend::cpu},
+                                                            {"vulkan", Backend::vulkan},
+                                                            {"reference", Backend::reference}};
+    app.add_option_function<std::string>(
+           "--backend", [&options](const std::string& name) { options.backend = backends.at(name); },
+           "auto (a real GPU when there is one, else cpu), cpu, vulkan, or reference (serial, double)")
+        ->check(CLI::IsMember({"auto", "cpu", "vulkan", "reference"}))
+        ->type_name("auto|cpu|vulkan|reference");
+    app.add_option("--device", options.device, "Vulkan device by its number in pliant info")
+        ->check(CLI::Range(0, 1000))
+        ->type_name("N");
+    app.add_option("--threads", options.threads, "Threads of the cpu backend (default: one for each core)")
+        ->check(CLI::Range(1, 1024))
+        ->type_name("N");
+    app.add_option("--set", overrides, "Change a value of the scene, as for pliant run")
+        ->type_name("PATH=VALUE")
+        ->allow_extra_args(false);
+    app.add_flag("--validation", options.validation, "Vulkan with its validation layer, for developers");
+}
+
+void add_view(CLI::App& app, ViewOptions& options)
+{
+    CLI::App* view = app.add_subcommand("view", "See a scene move in a window, and touch it");
+    view->footer(
+        "Examples:\n"
+        "  pliant view flag\n"
+        "  pliant view hanging --set method=acad --size 1920x1080\n"
+        "  pliant view cloth_sphere --headless --frames 120 --script session.json --log session.jsonl\n"
+        "F1 in the window shows what keys and mouse do.\n");
+    view->add_option("scene", options.scene, "A scene file, a built-in scene (pliant list), or a mesh")
+        ->type_name("SCENE");
+    add_simulation(*view, options.simulation, options.overrides);
+    view->add_option("--size", options.size, "Pixels of the window, as 1280x720")->type_name("WxH");
+    view->add_option("--frames", options.frames, "Frames of the display after which it ends")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
+        ->type_name("N");
+    view->add_flag("--paused", options.paused, "Begin paused");
+    view->add_option("--script", options.script_file,
+                     "Events by time, JSON; every frame then counts as 1/60 s, however long it takes")
+        ->type_name("F.json");
+    view->add_option("--log", options.log_file, "A line of JSON for each frame, with the state's hash")
+        ->type_name("F.jsonl");
+    view->add_option("--record", options.record_file, "Pictures of all frames: x.mp4 or frames_%04d.png")
+        ->type_name("F");
+    view->add_flag("--headless", options.headless, "Without a window; needs --frames");
+}
+
+void add_render(CLI::App& app, RenderOptions& options)
+{
+    CLI::App* render = app.add_subcommand("render", "Pictures and videos of a scene, with overlays");
+    render->footer(
+        "Examples:\n"
+        "  pliant render flag --size 1920x1080 --out flag.mp4\n"
+        "  pliant render hanging --overlay strain --frames 60 --out hanging.png\n"
+        "  pliant render hanging --compare mass_spring,acad --overlay strain --out both.mp4\n");
+    render->add_option("scene", options.scene, "A scene file, or the name of a built-in scene (pliant list)")
+        ->required()
+        ->type_name("SCENE");
+    add_simulation(*render, options.simulation, options.overrides);
+    render
+        ->add_option("--out", options.out_file,
+                     "x.png (the last frame), frames_%04d.png (every frame) or x.mp4")
+        ->required()
+        ->type_name("F");
+    render
+        ->add_option("--camera", options.camera,
+                     "Where it is, what it looks at (m), and its vertical angle: X,Y,Z,TX,TY,TZ[,DEGREES]")
+        ->type_name("NUMBERS");
+    render->add_option("--size", options.size, "Pixels, as 1280x720; with --compare of both together")
+        ->type_name("WxH");
+    render->add_option("--fps", options.frame_rate, "Pictures in a second of the scene's time")
+        ->check(CLI::Range(1.0, 1000.0))
+        ->type_name("N");
+    render->add_option("--frames", options.frames, "Frames to simulate, instead of the scene's duration")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
+        ->type_name("N");
+    render
+        ->add_option("--overlay", options.overlays,
+                     "strain, springs, active, multipliers, contacts, normals, volume or wireframe; may be "
+                     "repeated")
+        ->type_name("NAME")
+        ->allow_extra_args(false);
+    render->add_option("--compare", options.compare, "Two methods side by side, as mass_spring,acad")
+        ->type_name("A,B");
+    render->add_flag("--quiet", options.quiet, "Print nothing but warnings and errors");
+}
+
 int dispatch(int argc, char** argv)
 {
     CLI::App app("Pliant: cloth and soft bodies in real time, on any Vulkan GPU and on the CPU", "pliant");
@@ -240,6 +331,10 @@ int dispatch(int argc, char** argv)
     app.add_subcommand("info", "Backends and devices of this machine, with their limits");
     CheckOptions check_options;
     add_check(app, check_options);
+    ViewOptions view_options;
+    add_view(app, view_options);
+    RenderOptions render_options;
+    add_render(app, render_options);
 
     try {
         app.parse(argc, argv);
@@ -250,6 +345,8 @@ int dispatch(int argc, char** argv)
                               : app.got_subcommand("bench")     ? "bench "
                               : app.got_subcommand("check")     ? "check "
                               : app.got_subcommand("reproduce") ? "reproduce "
+                              : app.got_subcommand("view")      ? "view "
+                              : app.got_subcommand("render")    ? "render "
                                                                 : "";
         std::fprintf(stderr, "pliant: %s; see 'pliant %s--help'\n", error.what(), command);
         return static_cast<int>(ErrorKind::bad_usage);
@@ -257,6 +354,8 @@ int dispatch(int argc, char** argv)
     if (app.got_subcommand("run")) return run_command(run_options);
     if (app.got_subcommand("bench")) return bench_command(bench_options);
     if (app.got_subcommand("reproduce")) return reproduce_command(reproduce_options);
+    if (app.got_subcommand("view")) return view_command(view_options);
+    if (app.got_subcommand("render")) return render_command(render_options);
     if (app.got_subcommand("list")) return list_command();
     if (app.got_subcommand("info")) return info_command();
     return check_command(check_options);

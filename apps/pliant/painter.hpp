@@ -3,8 +3,8 @@
 
 #include <memory>
 #include <string>
-#include <vector>
 
+#include "picture_source.hpp"
 #include "pliant/simulation.hpp"
 #include "render/image.hpp"
 #include "render/renderer.hpp"
@@ -26,7 +26,7 @@ private:
     Simulation& simulation_;
     std::shared_ptr<vulkan::Device> device_;
     std::unique_ptr<Renderer> renderer_;
-    std::vector<ClothFrame> frames_;
+    PictureSource source_;
     Image image_;
 };
 

@@ -14,6 +14,10 @@
 
 namespace pliant {
 
+namespace vulkan {
+class Device;
+}
+
 /// Where the passes run.
 enum class Backend {
     automatic,  ///< a real GPU when there is one, else cpu
@@ -41,6 +45,8 @@ struct SimulationOptions {
         {};  ///< cpu: "sse2", "avx2", "avx512"; empty chooses the widest of this machine
     JobSystem* job_system = nullptr;  ///< cpu: borrowed, must outlive the simulation
     bool validation = false;          ///< Vulkan: with the validation layer; its messages count in `report()`
+    /// Vulkan, for Pliant's own viewer: a device that is open already, instead of `device` and `validation`.
+    std::shared_ptr<vulkan::Device> shared_device = nullptr;
 };
 
 /// Milliseconds spent in one pass since the start, by the device's own clock.
@@ -135,6 +141,32 @@ struct DeviceBuffers {
     std::uint32_t node_count = 0;
 };
 
+/// All that moves, at a moment: what Simulation::set_state takes back.
+struct State {
+    double time = 0;  ///< s
+    struct Nodes {
+        std::vector<Vec3> positions;   ///< m
+        std::vector<Vec3> velocities;  ///< m/s
+    };
+    std::vector<Nodes> cloths;  ///< in the order of the scene, nodes as in Simulation::positions
+};
+
+/// What a spring is there for.
+enum class SpringKind { structural, shear, bend, internal };
+
+/// A spring of a cloth, by its nodes as in Simulation::positions.
+struct SpringListing {
+    std::uint32_t i = 0, j = 0;
+    SpringKind kind = SpringKind::structural;
+    double rest_length = 0;  ///< m
+};
+
+/// A node that a pin holds.
+struct PinListing {
+    std::uint32_t node = 0;
+    bool moves = false;  ///< the pin has keyframes
+};
+
 class DeviceState;  // Pliant's own renderer draws through it, see src/backend/vulkan
 
 /// Steps a scene through time. The scene is copied; changing it afterwards changes nothing here.
@@ -153,9 +185,28 @@ public:
     /// nothing moves any more but time(), so that loops come to their end.
     void advance(double duration) noexcept;
 
+    /// Pulls a node towards `target` (m) from the next step on, by a spring of `stiffness` (N/m, 0 to 1e9)
+    /// and `damping` (N s/m, 0 to 1e6) without length, as a hand would. It is stepped implicitly with every
+    /// method, so that no stiffness is too large; while it is held the node counts as heavier by dt (damping
+    /// + dt stiffness). One node at a time: the last call counts, and calling it for the same node moves the
+    /// target. A pinned node stays where it is. Throws Error(bad_usage) for a cloth or node that does not
+    /// exist, or a number out of range.
+    void grab(std::size_t cloth, std::size_t node, Vec3d target, double stiffness, double damping);
+    /// Lets go; nothing happens when nothing is held.
+    void release() noexcept;
+
+    /// Where everything is now; reads back from the device.
+    State state();
+    /// Puts everything there; it lets go of a node that is held, and takes a run that had diverged up again.
+    /// Counters go on. What the method acad remembers of a spring being a constraint stays. Throws
+    /// Error(bad_usage) for another number of cloths or nodes.
+    void set_state(const State& state);
+
     double time() const;  ///< s
     const Report& report() const;
     std::vector<PassTime> pass_times() const;
+    /// The same into what is kept from frame to frame: allocates the first time.
+    void pass_times(std::vector<PassTime>& into) const;
 
     /// Positions of a cloth or soft body in m, one for each node, row by row on a sheet, in the order of its
     /// mesh otherwise. Read back from the device when asked for; valid until the next call of advance().
@@ -174,6 +225,11 @@ public:
     /// Triangles of a cloth, fixed over time.
     std::span<const Triangle> triangles(std::size_t cloth = 0) const;
 
+    /// Springs of a cloth, fixed over time.
+    std::vector<SpringListing> springs(std::size_t cloth = 0) const;
+    /// Nodes of a cloth that pins hold, ascending.
+    std::vector<PinListing> pins(std::size_t cloth = 0) const;
+
     /// The bits of all positions and velocities, in node order (FNV-1a, 64 bit). Equal hashes mean equal
     /// states.
     std::uint64_t state_hash();
@@ -183,6 +239,7 @@ public:
     std::string device_name() const;  ///< the GPU's, or the CPU's with the instruction set
     unsigned thread_count() const;
     std::uint64_t node_count() const;
+    std::uint32_t node_count(std::size_t cloth) const;
     std::size_t body_count() const;  ///< soft bodies among the cloths
     std::uint64_t spring_count() const;
     std::uint64_t triangle_count() const;

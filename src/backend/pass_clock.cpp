@@ -14,12 +14,15 @@ void PassClock::add(Pass pass, double milliseconds, std::uint64_t calls)
     time.calls += calls;
 }
 
-std::vector<PassTime> PassClock::times() const
+void PassClock::times(std::vector<PassTime>& into) const
 {
-    std::vector<PassTime> ran;
-    for (const PassTime& time : times_)
-        if (time.calls > 0) ran.push_back(time);
-    return ran;
+    std::size_t count = 0;
+    for (const PassTime& time : times_) {
+        if (time.calls == 0) continue;
+        if (count == into.size()) into.emplace_back();
+        into[count++] = time;  // a name's memory is used again
+    }
+    into.resize(count);
 }
 
 }  // namespace pliant

@@ -15,6 +15,14 @@
 
 namespace pliant {
 
+/// A hand that pulls at a node by a spring, in the numbers of `grabbed_velocity` of
+/// laws/integration.law.glsl.
+struct GrabInput {
+    std::uint32_t cloth = 0, node = 0;
+    Vec3d target;               ///< m, in the cloth's coordinates
+    double pull = 0, hold = 0;  ///< 1/s, and without unit
+};
+
 /// What changes from frame to frame.
 struct FrameInput {
     double step_length = 0;  ///< s
@@ -27,6 +35,7 @@ struct FrameInput {
     /// By cloth: what is wanted of its bodies at the end of each step, or once where that does not change;
     /// see BodyModel::goal_at. Empty: what is wanted at the start.
     std::span<const std::vector<VolumeGoal>> goals = {};
+    GrabInput grab = {};  ///< of programs with the pass grab
 
     /// Colliders at the end of a step of the frame; the calls that know no collider may ask with any index.
     std::span<const PlacedCollider> colliders_at(std::uint32_t step) const
@@ -50,6 +59,17 @@ struct MeasureTotals {
     double kinetic_energy = 0, elastic_energy = 0, height_moment = 0, non_finite = 0;
 };
 
+/// Milliseconds by pass.
+class PassClock {
+public:
+    PassClock();
+    void add(Pass pass, double milliseconds, std::uint64_t calls = 1);
+    void times(std::vector<PassTime>& into) const;  ///< of the passes that ran, in table order
+
+private:
+    std::vector<PassTime> times_;
+};
+
 class PassRunner {
 public:
     virtual ~PassRunner() = default;
@@ -61,6 +81,11 @@ public:
     /// order.
     virtual void read(std::uint32_t cloth, Resource resource, std::uint32_t parity,
                       std::vector<float>& values) = 0;
+    /// Replaces the positions (m, in the cloth's coordinates) and velocities (m/s) of all nodes of a cloth.
+    virtual void write(std::uint32_t cloth, std::span<const Vec3> positions,
+                       std::span<const Vec3> velocities) = 0;
+    /// Takes over the mass that the cloth's model has of a node now.
+    virtual void take_mass(std::uint32_t cloth, std::uint32_t node) = 0;
     /// The root of the tree of measures after a program that computed it.
     virtual MeasureTotals measures(std::uint32_t cloth) = 0;
 
@@ -70,7 +95,7 @@ public:
     /// The scalars of a cloth's constraint solver, by their numbers in kernels/planes.kernel.glsl.
     virtual std::vector<double> solver_scalars(std::uint32_t cloth) = 0;
 
-    virtual std::vector<PassTime> pass_times() const = 0;
+    virtual const PassClock& clock() const = 0;
     virtual std::string device_name() const = 0;
     virtual unsigned thread_count() const = 0;
     virtual std::uint64_t validation_messages() const { return 0; }
@@ -79,16 +104,5 @@ public:
 std::unique_ptr<PassRunner> make_reference_runner(std::span<const ClothModel> cloths);
 std::unique_ptr<PassRunner> make_cpu_runner(std::span<const ClothModel> cloths,
                                             const SimulationOptions& options);
-
-/// Milliseconds by pass.
-class PassClock {
-public:
-    PassClock();
-    void add(Pass pass, double milliseconds, std::uint64_t calls = 1);
-    std::vector<PassTime> times() const;  ///< of the passes that ran, in table order
-
-private:
-    std::vector<PassTime> times_;
-};
 
 }  // namespace pliant

@@ -24,3 +24,13 @@ LAW vec3 position_step(vec3 position, vec3 next_velocity, real dt)
 {
     return position + next_velocity * dt;
 }
+
+// The velocity with which a node begins a step while a hand pulls at it by a spring (stiffness k, damping c) to `target`:
+//   v' = v + pull (target - x) - hold (v + dt g),   pull = k dt / m',  hold = (c dt + k dt^2) / m',  m' = m + c dt + k dt^2
+// With m' as the node's mass in that step the result is that of the spring taken implicitly (to first order, as by
+// Baraff and Witkin 1998, Large Steps in Cloth Simulation, eq. (6)), by whatever method the step is made: no stiffness
+// of the hand is too large.
+LAW vec3 grabbed_velocity(vec3 position, vec3 velocity, vec3 target, vec3 gravity, real pull, real hold, real dt)
+{
+    return velocity + (target - position) * pull - (velocity + gravity * dt) * hold;
+}

@@ -3,13 +3,13 @@
 #include <array>
 #include <span>
 
-#include "render/shapes.hpp"
+#include "render/legend.hpp"
 
 namespace pliant::vulkan {
 namespace {
 
 static_assert(sizeof(ShapePlacement) == push_constant_bytes &&
-              sizeof(GroundPlacement) <= push_constant_bytes);
+              sizeof(GroundPlacement) <= push_constant_bytes && sizeof(LegendText) <= push_constant_bytes);
 
 // SPIR-V as the build makes it from shaders/.
 constexpr std::uint32_t backdrop_frag[] = {
@@ -39,6 +39,18 @@ constexpr std::uint32_t legend_frag[] = {
 constexpr std::uint32_t legend_vert[] = {
 #include "shaders/legend.vert.inc"
 };
+constexpr std::uint32_t line_frag[] = {
+#include "shaders/line.frag.inc"
+};
+constexpr std::uint32_t line_vert[] = {
+#include "shaders/line.vert.inc"
+};
+constexpr std::uint32_t point_frag[] = {
+#include "shaders/point.frag.inc"
+};
+constexpr std::uint32_t point_vert[] = {
+#include "shaders/point.vert.inc"
+};
 constexpr std::uint32_t shape_frag[] = {
 #include "shaders/shape.frag.inc"
 };
@@ -47,6 +59,13 @@ constexpr std::uint32_t shape_vert[] = {
 };
 constexpr std::uint32_t shape_shadow_vert[] = {
 #include "shaders/shape_shadow.vert.inc"
+};
+
+constexpr std::uint32_t wire_frag[] = {
+#include "shaders/wire.frag.inc"
+};
+constexpr std::uint32_t wire_vert[] = {
+#include "shaders/wire.vert.inc"
 };
 
 using Code = std::span<const std::uint32_t>;
@@ -60,7 +79,7 @@ struct Recipe {
     bool one_sided = false;
     bool behind_everything = false;  ///< covers only pixels that nothing has covered
     bool over_everything = false;
-    bool show_strain = false;
+    bool as_wires = false;
 };
 
 /// What the pipelines of a pass have in common.
@@ -74,15 +93,12 @@ vk::raii::Pipeline make_pipeline(const Device& device, vk::PipelineLayout layout
                                  const Recipe& recipe)
 {
     using Stage = vk::ShaderStageFlagBits;
-    const VkBool32 show_strain = recipe.show_strain;
-    const vk::SpecializationMapEntry entry(0, 0, sizeof show_strain);
-    const vk::SpecializationInfo constants(1, &entry, sizeof show_strain, &show_strain);
     const auto vertex = device.make_shader(recipe.vertex);
     vk::raii::ShaderModule fragment{nullptr};
     std::vector<vk::PipelineShaderStageCreateInfo> stages{{{}, Stage::eVertex, *vertex, "main"}};
     if (!recipe.fragment.empty()) {
         fragment = device.make_shader(recipe.fragment);
-        stages.push_back({{}, Stage::eFragment, *fragment, "main", &constants});
+        stages.push_back({{}, Stage::eFragment, *fragment, "main"});
     }
 
     const vk::VertexInputBindingDescription binding(0, sizeof(ShapeVertex));
@@ -108,6 +124,12 @@ vk::raii::Pipeline make_pipeline(const Device& device, vk::PipelineLayout layout
         raster.depthBiasEnable = VK_TRUE;
         raster.depthBiasConstantFactor = 2.0f;
         raster.depthBiasSlopeFactor = 2.0f;
+    }
+    if (recipe.as_wires) {  // in front of the triangles that they border
+        raster.polygonMode = vk::PolygonMode::eLine;
+        raster.depthBiasEnable = VK_TRUE;
+        raster.depthBiasConstantFactor = -50.0f;
+        raster.depthBiasSlopeFactor = -1.0f;
     }
     const vk::PipelineMultisampleStateCreateInfo multisample({}, pass.samples);
     const bool far = recipe.behind_everything, free = recipe.over_everything;
@@ -137,7 +159,7 @@ vk::raii::DescriptorSetLayout make_frame_set(const Device& device)
 
 vk::raii::DescriptorSetLayout make_cloth_set(const Device& device)
 {
-    std::array<vk::DescriptorSetLayoutBinding, 4> bindings;
+    std::array<vk::DescriptorSetLayoutBinding, cloth_binding_count> bindings;
     for (std::uint32_t i = 0; i < bindings.size(); ++i)
         bindings[i] = {i, vk::DescriptorType::eStorageBuffer, 1, vk::ShaderStageFlagBits::eVertex};
     return {device.handle(), vk::DescriptorSetLayoutCreateInfo({}, bindings)};
@@ -152,39 +174,75 @@ vk::raii::PipelineLayout make_layout(const Device& device, vk::DescriptorSetLayo
     return {device.handle(), vk::PipelineLayoutCreateInfo({}, sets, constants)};
 }
 
+Recipe recipe_of(Drawn drawn)
+{
+    using Topology = vk::PrimitiveTopology;
+    switch (drawn) {
+        case Drawn::cloth_shadow: return {.vertex = cloth_shadow_vert};
+        case Drawn::shape_shadow:
+            return {.vertex = shape_shadow_vert, .shape_vertices = true, .one_sided = true};
+        case Drawn::cloth: return {.vertex = cloth_vert, .fragment = cloth_frag};
+        case Drawn::shape:
+            return {.vertex = shape_vert, .fragment = shape_frag, .shape_vertices = true, .one_sided = true};
+        case Drawn::ground:
+            return {.vertex = ground_vert,
+                    .fragment = ground_frag,
+                    .topology = Topology::eTriangleStrip,
+                    .one_sided = true};
+        case Drawn::backdrop:
+            return {.vertex = backdrop_vert, .fragment = backdrop_frag, .behind_everything = true};
+        case Drawn::legend:
+            return {.vertex = legend_vert,
+                    .fragment = legend_frag,
+                    .topology = Topology::eTriangleStrip,
+                    .over_everything = true};
+        case Drawn::lines:
+            return {.vertex = line_vert, .fragment = line_frag, .topology = Topology::eLineList};
+        case Drawn::points: return {.vertex = point_vert, .fragment = point_frag};
+        case Drawn::wires: return {.vertex = wire_vert, .fragment = wire_frag, .as_wires = true};
+    }
+    return {};
+}
+
+template <class T>
+Buffer make_filled(const Device& device, const std::vector<T>& data, vk::BufferUsageFlags usage,
+                   const char* name)
+{
+    Buffer buffer = device.make_buffer(data.size() * sizeof(T), usage, Memory::device, name);
+    device.write(buffer, data.data(), data.size() * sizeof(T));
+    return buffer;
+}
+
 }  // namespace
 
-Pipelines::Pipelines(const Device& device, const PictureTarget& target, vk::RenderPass shadow_pass,
-                     ClothColour colour)
-    : frame_set(make_frame_set(device)),
-      cloth_set(make_cloth_set(device)),
-      layout(make_layout(device, *frame_set, *cloth_set)),
-      cloth_shadow(nullptr),
-      shape_shadow(nullptr),
-      cloth(nullptr),
-      shape(nullptr),
-      ground(nullptr),
-      backdrop(nullptr)
+PictureKit::PictureKit(std::shared_ptr<Device> device, vk::RenderPass pass, vk::SampleCountFlagBits samples)
+    : device_(std::move(device)),
+      pass_(pass),
+      samples_(samples),
+      shadow_map_(*device_),
+      frame_set_(make_frame_set(*device_)),
+      cloth_set_(make_cloth_set(*device_)),
+      layout_(make_layout(*device_, *frame_set_, *cloth_set_)),
+      pipelines_{nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr},
+      shapes_(make_shape_meshes()),
+      shape_vertices_(
+          make_filled(*device_, shapes_.vertices, vk::BufferUsageFlagBits::eVertexBuffer, "shape vertices")),
+      shape_indices_(
+          make_filled(*device_, shapes_.indices, vk::BufferUsageFlagBits::eIndexBuffer, "shape indices"))
 {
-    const auto strip = vk::PrimitiveTopology::eTriangleStrip;
-    const bool strain = colour == ClothColour::strain;
-    const Pass shadow{.pass = shadow_pass, .casts_shadows = true};
-    const Pass picture{.pass = target.pass, .samples = target.samples};
-    const auto make = [&](const Pass& pass, const Recipe& recipe) {
-        return make_pipeline(device, *layout, pass, recipe);
-    };
-    cloth_shadow = make(shadow, {.vertex = cloth_shadow_vert});
-    shape_shadow = make(shadow, {.vertex = shape_shadow_vert, .shape_vertices = true, .one_sided = true});
-    cloth = make(picture, {.vertex = cloth_vert, .fragment = cloth_frag, .show_strain = strain});
-    shape = make(picture,
-                 {.vertex = shape_vert, .fragment = shape_frag, .shape_vertices = true, .one_sided = true});
-    ground =
-        make(picture, {.vertex = ground_vert, .fragment = ground_frag, .topology = strip, .one_sided = true});
-    backdrop = make(picture, {.vertex = backdrop_vert, .fragment = backdrop_frag, .behind_everything = true});
-    if (strain)
-        legend = make(
-            picture,
-            {.vertex = legend_vert, .fragment = legend_frag, .topology = strip, .over_everything = true});
+}
+
+vk::Pipeline PictureKit::pipeline(Drawn drawn) const
+{
+    vk::raii::Pipeline& known = pipelines_[static_cast<std::size_t>(drawn)];
+    if (*known) return *known;
+    const Recipe recipe = recipe_of(drawn);
+    if (recipe.as_wires && !device_->draws_wires()) return nullptr;
+    const bool shadow = drawn == Drawn::cloth_shadow || drawn == Drawn::shape_shadow;
+    const Pass shadows{.pass = shadow_map_.pass(), .casts_shadows = true};
+    const Pass picture{.pass = pass_, .samples = samples_};
+    known = make_pipeline(*device_, *layout_, shadow ? shadows : picture, recipe);
+    return *known;
 }
 
 }  // namespace pliant::vulkan

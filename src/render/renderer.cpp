@@ -39,7 +39,8 @@ struct Renderer::Implementation {
                    std::span<const ClothTopology> topologies)
         : camera(scene.camera),
           target(*device, {camera.width, camera.height}),
-          drawing(device, scene, topologies, target.target()),
+          drawing(std::make_shared<vulkan::PictureKit>(device, target.target().pass, target.target().samples),
+                  scene, topologies),
           commands(device->make_commands())
     {
     }
@@ -69,16 +70,29 @@ Image Renderer::draw(double time, std::span<const ClothFrame> frames)
 
 void Renderer::draw(double time, std::span<const ClothFrame> frames, Image& into)
 {
+    PictureState state{.camera = implementation_->camera, .time = time, .frames = frames};
+    if (state.camera.colour == ClothColour::strain) state.overlays.set(Overlay::strain, true);
+    draw(state, into);
+}
+
+void Renderer::draw(const PictureState& state, Image& into)
+{
     on_device(*device_, [&] {
         auto& [camera, target, drawing, commands] = *implementation_;
-        drawing.prepare(camera, target.target().size, time, frames);
+        drawing.prepare(state, target.target().size);
         commands.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
-        drawing.record(commands, target.target());
+        drawing.begin(commands, target.target());
+        drawing.end(commands);
         target.record_copy(commands);
         commands.end();
         device_->run(commands);
         target.read(into);
     });
+}
+
+void Renderer::set_springs(std::size_t cloth, std::span<const DrawnSpring> springs)
+{
+    on_device(*device_, [&] { implementation_->drawing.set_springs(cloth, springs); });
 }
 
 }  // namespace pliant

@@ -26,6 +26,10 @@ public:
     Image draw(double time, std::span<const ClothFrame> frames);
     /// The same into a picture that is kept from frame to frame: no allocation.
     void draw(double time, std::span<const ClothFrame> frames, Image& into);
+    /// The same with overlays and a camera of its own; its size is that of the scene's camera.
+    void draw(const PictureState& state, Image& into);
+    /// Springs of a cloth, for the overlays that show them.
+    void set_springs(std::size_t cloth, std::span<const DrawnSpring> springs);
 
 private:
     struct Implementation;

@@ -9,12 +9,18 @@
 
 #include "backend/vulkan/device_state.hpp"
 #include "pliant/scene.hpp"
+#include "render/legend.hpp"
 #include "render/pipelines.hpp"
-#include "render/shadow_map.hpp"
-#include "render/shapes.hpp"
 #include "render/stage.hpp"
 
 namespace pliant {
+
+/// A spring as shaders/line.vert has it.
+struct DrawnSpring {
+    std::uint32_t i = 0, j_and_class = 0;  ///< nodes; the class, 0 to 3, in the uppermost bits
+    float rest_length = 0;                 ///< m
+    float limit = -1;  ///< stretch at which a constraint begins to hold it; below 0 where none does
+};
 
 /// What does not change of a cloth.
 struct ClothTopology {
@@ -28,60 +34,110 @@ struct HostCloth {
     std::span<const Vec3> positions;
     std::span<const Vec3> normals;        ///< unit length
     std::span<const float> strains = {};  ///< may be empty, and then counts as zero
+    std::span<const Vec3> before = {};    ///< positions of the state before; may be empty without blending
 };
 
 /// A cloth at a moment: on the host, or where the simulation has it on the device.
 using ClothFrame = std::variant<HostCloth, DeviceClothBuffers>;
 
+/// A node that touches a collider.
+struct ContactPoint {
+    Vec3 position;    ///< m
+    float depth = 0;  ///< m, that it has sunk in
+};
+
+/// What overlays need of a cloth beside its frame, from the host; what is not needed may be empty.
+struct ClothExtras {
+    std::span<const float> values = {};  ///< the colour at each node, instead of the strains
+    std::span<const float> forces = {};  ///< N, the largest of a constraint at each node: multipliers
+    std::span<const ContactPoint> contacts = {};
+};
+
+/// Everything that a picture shows.
+struct PictureState {
+    Camera camera = {};  ///< its size and colour count for nothing here
+    double time = 0;     ///< s, which places the colliders
+    OverlaySet overlays = {};
+    const ValueScale* scale = nullptr;  ///< of the colours; null: strains up to 10 %
+    std::span<const ClothFrame> frames = {};
+    std::span<const ClothExtras> extras = {};  ///< for each cloth, or none at all
+    float blend = 1;                           ///< 0: the state before, 1: that of `frames`
+};
+
 namespace vulkan {
 
 class SceneDrawing {
 public:
-    /// Uploads what does not change. Pictures go to targets like this one (its pass and samples, any size).
-    SceneDrawing(std::shared_ptr<Device> device, const Scene& scene,
-                 std::span<const ClothTopology> topologies, const PictureTarget& target);
+    /// Uploads what does not change. Up to `slots` pictures may be on their way at a time.
+    SceneDrawing(std::shared_ptr<const PictureKit> kit, const Scene& scene,
+                 std::span<const ClothTopology> topologies, unsigned slots = 1);
 
-    /// Takes the state that the next picture shows, one entry of `frames` for each topology. The commands of
-    /// the last picture must have run: what they read is written here. Throws Error(bad_usage) for frames of
-    /// another size.
-    void prepare(const Camera& camera, vk::Extent2D size, double time, std::span<const ClothFrame> frames);
-    /// Records the picture that was prepared.
-    void record(const vk::raii::CommandBuffer& commands, const PictureTarget& target) const;
+    /// Uploads the springs of a cloth, for the overlays that show them.
+    void set_springs(std::size_t cloth, std::span<const DrawnSpring> springs);
+    bool has_springs() const { return !cloths_.empty() && cloths_.front().lines.size > 0; }
+
+    /// Records copies of positions, one buffer for each cloth: they are the state before the next picture's.
+    void keep(const vk::raii::CommandBuffer& commands, std::span<const vk::Buffer> positions);
+
+    /// Takes the state that the next picture of a slot shows, one entry of its frames for each topology. The
+    /// commands of the slot's last picture must have run: what they read is written here. Throws
+    /// Error(bad_usage) for frames of another size.
+    void prepare(const PictureState& state, vk::Extent2D size, unsigned slot = 0);
+    /// Records the picture that was prepared: shadows and the picture itself. The render pass of the picture
+    /// is left open, so that more can be drawn over it; `end` closes it.
+    void begin(const vk::raii::CommandBuffer& commands, const PictureTarget& target, unsigned slot = 0) const;
+    void end(const vk::raii::CommandBuffer& commands) const { commands.endRenderPass(); }
 
 private:
+    /// What a picture on its way reads of a cloth, so that the next one must not write it.
+    struct ClothSlot {
+        Buffer positions, normals, strains, before;  // only for host frames, made with the first of them
+        Buffer values, forces, points;               // only for overlays, made when one is there
+        std::uint32_t point_count = 0;
+        vk::raii::DescriptorSet set{nullptr};
+        std::array<vk::Buffer, cloth_binding_count> bound{};
+    };
     /// One cloth on the device.
     struct ClothDrawing {
-        std::uint32_t node_count = 0, index_count = 0;
-        Buffer indices, pattern;
-        Buffer positions, normals, strains;  // only for host frames, made with the first of them
-        vk::raii::DescriptorSet set{nullptr};
-        DeviceClothBuffers bound;  // what the set points to
+        std::uint32_t node_count = 0, index_count = 0, line_count = 0;
+        Buffer indices, pattern, lines;
+        Buffer kept;  // positions before, of frames on the device
+        std::vector<ClothSlot> slots;
+    };
+    struct Slot {
+        Buffer uniforms;
+        vk::raii::DescriptorSet frame_set{nullptr};
+        std::vector<PlacedCollider> placed;  // at the time of the picture
+        OverlaySet overlays;
+        LegendText legend{};
     };
 
-    ClothDrawing make_cloth(const Cloth& cloth, const ClothTopology& topology) const;
-    void bind_frame_set();
-    void bind_frame(ClothDrawing& cloth, const ClothFrame& frame) const;
-    DeviceClothBuffers upload(ClothDrawing& cloth, const HostCloth& frame) const;
-    void record_shadows(const vk::raii::CommandBuffer& commands) const;
-    void record_picture(const vk::raii::CommandBuffer& commands, const PictureTarget& target) const;
-    void draw_cloths(const vk::raii::CommandBuffer& commands) const;
-    void draw_shapes(const vk::raii::CommandBuffer& commands) const;
-    void draw_floors(const vk::raii::CommandBuffer& commands) const;
+    ClothDrawing make_cloth(const Cloth& cloth, const ClothTopology& topology, unsigned slots) const;
+    Slot make_slot() const;
+    void bind_cloth(ClothDrawing& cloth, ClothSlot& slot, const ClothFrame& frame, const ClothExtras& extras,
+                    OverlaySet overlays, float blend) const;
+    void upload(const ClothDrawing& cloth, ClothSlot& slot, const HostCloth& frame) const;
+    void take_extras(const ClothDrawing& cloth, ClothSlot& slot, const ClothExtras& extras) const;
+    void record_shadows(const vk::raii::CommandBuffer& commands, unsigned slot) const;
+    void record_picture(const vk::raii::CommandBuffer& commands, const PictureTarget& target,
+                        unsigned slot) const;
+    void draw_overlays(const vk::raii::CommandBuffer& commands, vk::Extent2D size, unsigned slot) const;
+    void draw_cloths(const vk::raii::CommandBuffer& commands, unsigned slot) const;
+    void draw_shapes(const vk::raii::CommandBuffer& commands, unsigned slot) const;
+    void draw_floors(const vk::raii::CommandBuffer& commands, unsigned slot) const;
+    void bind(const vk::raii::CommandBuffer& commands, Drawn drawn) const;
+    void bind_set(const vk::raii::CommandBuffer& commands, const ClothSlot& slot) const;
     template <class Constants>
     void push(const vk::raii::CommandBuffer& commands, const Constants& constants) const;
 
+    std::shared_ptr<const PictureKit> kit_;
     std::shared_ptr<Device> device_;
     std::vector<Collider> colliders_;
     Stage stage_;
-    ShadowMap shadow_map_;
-    Pipelines pipelines_;
-    Buffer uniforms_;
     vk::raii::DescriptorPool pool_{nullptr};
-    vk::raii::DescriptorSet frame_set_{nullptr};
+    Buffer nothing_;  // bound where a cloth has nothing to show
+    std::vector<Slot> slots_;
     std::vector<ClothDrawing> cloths_;
-    ShapeMeshes shapes_;
-    Buffer shape_vertices_, shape_indices_;
-    std::vector<PlacedCollider> placed_;  // at the time of the picture
 };
 
 }  // namespace vulkan

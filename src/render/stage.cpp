@@ -9,7 +9,6 @@ namespace {
 
 constexpr double radians_per_degree = std::numbers::pi / 180;
 constexpr double sun_height = 52, sun_side = 48;  // degrees above the floor, and to the left of the camera
-constexpr double strain_range = 0.10;             // of the colour map
 constexpr double cloth_reach = 1.6;  // how far a cloth gets from where it starts, in its own radii
 
 /// A ball around a cloth at rest.
@@ -201,7 +200,8 @@ FrameUniforms frame_uniforms(const Stage& stage, const Camera& camera, std::uint
     frame.picture = {static_cast<float>(w), static_cast<float>(h), static_cast<float>(1 / w),
                      static_cast<float>(1 / h)};
     frame.shadow_texel = static_cast<float>(stage.shadow_extent / shadow_map_size);
-    frame.strain_range = static_cast<float>(strain_range);
+    frame.value_high = 1;
+    frame.blend = 1;
     return frame;
 }
 

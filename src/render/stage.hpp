@@ -43,9 +43,12 @@ struct FrameUniforms {
     std::array<float, 4> to_light;
     std::array<float, 4> picture;
     float shadow_texel;
-    float strain_range;
-    float padding[2];
+    float value_low, value_high;
+    float blend;
+    std::uint32_t colours;
+    float padding[3];
 };
+/// Camera, light and size; the rest says: a checker, and the last state alone.
 FrameUniforms frame_uniforms(const Stage& stage, const Camera& camera, std::uint32_t width,
                              std::uint32_t height, std::uint32_t shadow_map_size);
 

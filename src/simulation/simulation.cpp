@@ -7,6 +7,7 @@
 #include <cstring>
 #include <map>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "backend/cpu/kernels.hpp"
@@ -14,6 +15,7 @@
 #include "backend/vulkan/vulkan_runner.hpp"
 #include "body/cloth_model.hpp"
 #include "kernels/planes.hpp"
+#include "simulation/hand.hpp"
 #include "solve/frame.hpp"
 #include "solve/mass_spring.hpp"
 #include "solve/newton_multigrid.hpp"
@@ -131,14 +133,19 @@ public:
             runner =
                 backend == Backend::cpu ? make_cpu_runner(models, options) : make_reference_runner(models);
         }
-        Program program{next_program_id++, {}, parity};
-        append_measures(models, parity, 0, program.calls);
         try {
-            runner->run(program, input(0));
+            measure();
         } catch (const std::runtime_error& error) {
             throw Error(ErrorKind::device_failure,
                         "the device " + runner->device_name() + " failed at once: " + error.what());
         }
+    }
+
+    void measure()
+    {
+        Program program{next_program_id++, {}, parity};
+        append_measures(models, parity, 0, program.calls);
+        runner->run(program, input(0));
     }
 
     /// Steps of a stretch of time, and how long each is.
@@ -192,6 +199,7 @@ public:
     void run_steps(std::uint32_t steps, double step)
     {
         const Program& program = frame_program(steps);
+        hold(step);
         place_colliders(steps, step);
         place_attached(steps, step);
         place_goals(steps, step);
@@ -245,12 +253,13 @@ public:
 
     const Program& frame_program(std::uint32_t steps)
     {
-        const auto key = std::make_pair(steps, parity);
+        const std::uint32_t grabbed = hand ? hand->model : no_cloth;
+        const auto key = std::make_tuple(steps, parity, grabbed);
         auto found = programs.find(key);
         if (found == programs.end() && programs.size() >= most_programs) programs.clear();
         if (found == programs.end()) {
             Program program{next_program_id++, {}, 0};
-            program.parity_after = append_frame(models, steps, parity, program.calls);
+            program.parity_after = append_frame(models, steps, parity, program.calls, grabbed);
             found = programs.emplace(key, std::move(program)).first;
         }
         return found->second;
@@ -304,8 +313,89 @@ public:
 
     FrameInput input(double step) const
     {
-        return {step, static_cast<std::uint32_t>(scene.colliders.size()), placed, colliders_rest, attached,
-                goals};
+        return {step,  static_cast<std::uint32_t>(scene.colliders.size()), placed, colliders_rest, attached,
+                goals, hand && step > 0 ? hand->input(step) : GrabInput{}};
+    }
+
+    /// Makes the held node as heavy as it is in the hand, in steps of this length; with 0, as it is without.
+    void hold(double step)
+    {
+        if (hand && set_mass(models[hand->model], *hand, step)) runner->take_mass(hand->model, hand->node);
+    }
+
+    void grab(std::size_t cloth, std::size_t node, Vec3d target, double stiffness, double damping)
+    {
+        const auto refuse = [](const std::string& what) {
+            throw Error(ErrorKind::bad_usage, "Simulation::grab: " + what);
+        };
+        if (cloth >= places.size() || node >= places[cloth].node_count)
+            refuse("there is no node " + std::to_string(node) + " of cloth " + std::to_string(cloth));
+        if (!(stiffness >= 0 && stiffness <= 1e9)) refuse("the stiffness must be 0 to 1e9 N/m");
+        if (!(damping >= 0 && damping <= 1e6)) refuse("the damping must be 0 to 1e6 N s/m");
+        if (!std::isfinite(dot(target, target))) refuse("the target must be finite");
+        const ClothPlace& place = places[cloth];
+        const ClothModel& model = models[place.model];
+        const auto at = static_cast<std::uint32_t>(place.node(node));
+        const bool same = hand && hand->model == place.model && hand->node == at;
+        if (!same) release();
+        if (!(model.inverse_masses[at] > 0)) return;  // pinned
+        if (!same) hand = Hand{.model = place.model, .node = at, .mass = double{model.masses[at]}};
+        hand->target = target - model.origin;
+        if (hand->stiffness != stiffness || hand->damping != damping) hold(0);
+        hand->stiffness = stiffness;
+        hand->damping = damping;
+    }
+
+    void release()
+    {
+        hold(0);
+        hand.reset();
+    }
+
+    State state()
+    {
+        State now{report.simulated_seconds, {}};
+        for (std::size_t c = 0; c < places.size(); ++c) {
+            const auto x = values(c, Resource::position), v = values(c, Resource::velocity);
+            now.cloths.push_back({{x.begin(), x.end()}, {v.begin(), v.end()}});
+        }
+        return now;
+    }
+
+    void set_state(const State& state)
+    {
+        bool fits = state.cloths.size() == places.size();
+        for (std::size_t c = 0; fits && c < places.size(); ++c)
+            fits = state.cloths[c].positions.size() == places[c].node_count &&
+                   state.cloths[c].velocities.size() == places[c].node_count;
+        if (!fits)
+            throw Error(ErrorKind::bad_usage,
+                        "Simulation::set_state: the state has other cloths, or other numbers of nodes, than "
+                        "the scene");
+        release();
+        for (std::uint32_t m = 0; m < models.size(); ++m) {
+            std::vector<Vec3> x(models[m].node_count()), v(models[m].node_count());
+            for (std::size_t c = 0; c < places.size(); ++c) {
+                if (places[c].model != m) continue;
+                const Vec3d origin = models[m].origin;
+                for (std::size_t i = 0; i < places[c].node_count; ++i) {
+                    const Vec3 at = state.cloths[c].positions[i];
+                    x[places[c].node(i)] = origin == Vec3d{} ? at : to_float(to_double(at) - origin);
+                    v[places[c].node(i)] = state.cloths[c].velocities[i];
+                }
+            }
+            std::vector<bool> moved(x.size(), false);
+            for (const AttachedNode& a : models[m].attached) moved[a.node] = true;
+            for (std::size_t i = 0; i < x.size(); ++i)
+                if (!(models[m].inverse_masses[i] > 0) && !moved[i]) v[i] = {};  // a pin that stands still
+            runner->write(m, x, v);
+        }
+        report.simulated_seconds = state.time;
+        report.finite = true;
+        idle_seconds = 0;
+        ++state_number;
+        measure();
+        take_measures();
     }
 
     void take_measures()
@@ -444,8 +534,11 @@ public:
             device_state->drawable(model);
             return;
         }
-        Program program{next_program_id++, {}, parity};
-        append_drawing(models[model], model, parity, program.calls);
+        Program& program = drawing_programs[{model, parity}];
+        if (program.calls.empty()) {
+            program = {next_program_id++, {}, parity};
+            append_drawing(models[model], model, parity, program.calls);
+        }
         runner->run(program, input(0));
     }
 
@@ -493,9 +586,12 @@ public:
     VulkanRunner* device_state = nullptr;
     double stable_step = 0;
     bool colliders_rest = true;
+    std::optional<Hand> hand;
     std::vector<PlacedCollider> placed;
-    std::vector<std::vector<Vec3>> attached;                              ///< by cloth, see FrameInput
-    std::map<std::pair<std::uint32_t, std::uint32_t>, Program> programs;  // by steps and parity
+    std::vector<std::vector<Vec3>> attached;  ///< by cloth, see FrameInput
+    /// By steps, parity and the model that a hand holds.
+    std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, Program> programs;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Program> drawing_programs;  ///< by model and parity
     std::uint64_t next_program_id = 1;
     std::uint32_t parity = 0;
     std::uint64_t state_number = 1;  ///< counts states; 0 is none
@@ -539,7 +635,72 @@ double Simulation::time() const
     return implementation_->report.simulated_seconds + implementation_->idle_seconds;
 }
 const Report& Simulation::report() const { return implementation_->report; }
-std::vector<PassTime> Simulation::pass_times() const { return implementation_->runner->pass_times(); }
+std::vector<PassTime> Simulation::pass_times() const
+{
+    std::vector<PassTime> times;
+    pass_times(times);
+    return times;
+}
+void Simulation::pass_times(std::vector<PassTime>& into) const
+{
+    implementation_->runner->clock().times(into);
+}
+
+void Simulation::grab(std::size_t cloth, std::size_t node, Vec3d target, double stiffness, double damping)
+{
+    implementation_->grab(cloth, node, target, stiffness, damping);
+}
+void Simulation::release() noexcept
+{
+    try {
+        implementation_->release();
+    } catch (const std::exception& error) {
+        implementation_->stop(error.what());  // the device is lost
+    }
+}
+State Simulation::state() { return implementation_->state(); }
+void Simulation::set_state(const State& state) { implementation_->set_state(state); }
+
+std::vector<PinListing> Simulation::pins(std::size_t cloth) const
+{
+    const auto& place = implementation_->places.at(cloth);
+    const ClothModel& model = implementation_->models[place.model];
+    std::vector<PinListing> listing;
+    for (std::uint32_t k = 0; k < place.node_count; ++k) {
+        const auto node = static_cast<std::uint32_t>(place.node(k));
+        if (model.inverse_masses[node] > 0) continue;
+        const bool moves = std::any_of(model.attached.begin(), model.attached.end(),
+                                       [&](const AttachedNode& a) { return a.node == node; });
+        listing.push_back({k, moves});
+    }
+    return listing;
+}
+
+std::vector<SpringListing> Simulation::springs(std::size_t cloth) const
+{
+    const auto& place = implementation_->places.at(cloth);
+    const ClothModel& model = implementation_->models[place.model];
+    std::vector<SpringListing> listing;
+    const auto add = [&](std::uint32_t i, std::uint32_t j, SpringClass of, double rest_length) {
+        auto kind = static_cast<SpringKind>(of);
+        if (model.is_body() && of == SpringClass::shear) kind = SpringKind::internal;
+        listing.push_back({i, j, kind, rest_length});
+    };
+    if (model.springs.empty() && model.sheet) {
+        for_each_sheet_spring(*model.sheet, [&](std::uint32_t i, std::uint32_t j, const SheetNeighbour& n) {
+            add(i, j, n.spring_class, model.sheet->rest_lengths[static_cast<std::size_t>(n.rest)]);
+        });
+        return listing;
+    }
+    std::vector<std::uint32_t> vertex_of(place.node_count);
+    for (std::uint32_t k = 0; k < place.node_count; ++k) vertex_of[place.node(k) - place.first_node] = k;
+    for (const Spring& spring : model.springs) {
+        if (spring.i < place.first_node || spring.i >= place.first_node + place.node_count) continue;
+        add(vertex_of[spring.i - place.first_node], vertex_of[spring.j - place.first_node],
+            spring.spring_class, spring.rest_length);
+    }
+    return listing;
+}
 
 std::span<const Vec3> Simulation::positions(const ClothHandle& cloth) { return positions(cloth.index()); }
 std::span<const Vec3> Simulation::positions(std::size_t cloth)
@@ -585,6 +746,10 @@ std::uint64_t Simulation::node_count() const
     std::uint64_t sum = 0;
     for (const ClothModel& model : implementation_->models) sum += model.node_count();
     return sum;
+}
+std::uint32_t Simulation::node_count(std::size_t cloth) const
+{
+    return implementation_->places.at(cloth).node_count;
 }
 std::size_t Simulation::body_count() const { return implementation_->report.bodies.size(); }
 std::uint64_t Simulation::spring_count() const { return implementation_->total(&ClothModel::spring_count); }

@@ -51,12 +51,15 @@ void count_guarded(std::vector<Call>& calls)
 }  // namespace
 
 std::uint32_t append_frame(std::span<const ClothModel> cloths, std::uint32_t steps, std::uint32_t parity,
-                           std::vector<Call>& calls)
+                           std::vector<Call>& calls, std::uint32_t grabbed)
 {
     for (std::uint32_t c = 0; c < cloths.size(); ++c)
         if (!cloths[c].hierarchy.empty()) calls.push_back({Pass::solve_reset, c, parity, 0});
     for (std::uint32_t step = 0; step < steps; ++step, parity ^= 1)
-        for (std::uint32_t c = 0; c < cloths.size(); ++c) append_step(cloths[c], c, step, parity, calls);
+        for (std::uint32_t c = 0; c < cloths.size(); ++c) {
+            if (c == grabbed) calls.push_back({Pass::grab, c, parity, step});
+            append_step(cloths[c], c, step, parity, calls);
+        }
     append_measures(cloths, parity, steps - 1, calls);
     count_guarded(calls);
     return parity;

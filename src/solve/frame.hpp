@@ -10,10 +10,12 @@
 
 namespace pliant {
 
+constexpr std::uint32_t no_cloth = ~0u;
+
 /// Appends one frame: `steps` steps of every cloth by the method and solver that it was made for, starting
 /// from the state copy `parity`, then the measures of the state that they reach. Returns the parity of that
-/// state.
+/// state. Every step of the cloth `grabbed` begins with the pull of a hand, see FrameInput::grab.
 std::uint32_t append_frame(std::span<const ClothModel> cloths, std::uint32_t steps, std::uint32_t parity,
-                           std::vector<Call>& calls);
+                           std::vector<Call>& calls, std::uint32_t grabbed = no_cloth);
 
 }  // namespace pliant

@@ -203,6 +203,7 @@ public:
             constants_[c] = StepConstants<float>(model, input.step_length);
             if (!input.attached.empty()) constants_[c].attached = input.attached[c];
             if (!input.goals.empty()) constants_[c].goals = input.goals[c];
+            constants_[c].set(input.grab);
             solver_constants_[c] = make_solver_constants<float>(model, input.step_length);
         }
         // A host's threads are lent for a task at a time; Pliant's own stay together for the frame.
@@ -217,6 +218,16 @@ public:
     {
         cloths_[cloth].plain.read(resource, parity, values);
     }
+    void write(std::uint32_t cloth, std::span<const Vec3> positions,
+               std::span<const Vec3> velocities) override
+    {
+        cloths_[cloth].plain.write(positions, velocities);
+    }
+    void take_mass(std::uint32_t cloth, std::uint32_t node) override
+    {
+        cloths_[cloth].plain.take_mass(node);
+        cloths_[cloth].solver.take_mass(cloths_[cloth].plain.model, node);
+    }
     std::vector<double> volumes(std::uint32_t cloth) override
     {
         const auto& values = cloths_[cloth].plain.body.volumes;
@@ -228,7 +239,7 @@ public:
         return {values.begin(), values.end()};
     }
     MeasureTotals measures(std::uint32_t cloth) override { return cloths_[cloth].plain.totals(); }
-    std::vector<PassTime> pass_times() const override { return clock_.times(); }
+    const PassClock& clock() const override { return clock_; }
     std::string device_name() const override
     {
         return std::string("CPU, ") + kernels_.name + ", " + std::to_string(thread_count()) +

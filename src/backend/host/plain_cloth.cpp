@@ -32,6 +32,16 @@ StepConstants<T>::StepConstants(const ClothModel& model, double step_length)
 }
 
 template <class T>
+void StepConstants<T>::set(const GrabInput& grab)
+{
+    grabbed_node = grab.node;
+    grab_target = {static_cast<T>(grab.target.x), static_cast<T>(grab.target.y),
+                   static_cast<T>(grab.target.z)};
+    grab_pull = static_cast<T>(grab.pull);
+    grab_hold = static_cast<T>(grab.hold);
+}
+
+template <class T>
 PlainCloth<T>::PlainCloth(const ClothModel& cloth)
     : model(cloth),
       layout(cloth.sheet ? cloth.sheet->rows : 1, cloth.sheet ? cloth.sheet->columns : cloth.node_count()),
@@ -47,21 +57,34 @@ PlainCloth<T>::PlainCloth(const ClothModel& cloth)
     for (auto* planes : {&position[0], &position[1], &velocity[0], &velocity[1]})
         *planes = Planes<T>(layout.size);
     measures.assign(tree.value_count, L::measure_of_nothing());
+    write(model.positions, model.velocities);
+    for (std::size_t i = 0; i < model.node_count(); ++i) take_mass(i);
+}
+
+template <class T>
+void PlainCloth<T>::write(std::span<const Vec3> positions, std::span<const Vec3> velocities)
+{
     const auto vector = [](Vec3 a) {
         return Vector{static_cast<T>(a.x), static_cast<T>(a.y), static_cast<T>(a.z)};
     };
     for (std::size_t i = 0; i < model.node_count(); ++i) {
         const std::size_t offset = layout.offset(i);
-        for (auto& planes : position) planes.set(offset, vector(model.positions[i]));
-        for (auto& planes : velocity) planes.set(offset, vector(model.velocities[i]));
-        inverse_mass[offset] = static_cast<T>(model.inverse_masses[i]);
+        for (auto& planes : position) planes.set(offset, vector(positions[i]));
+        for (auto& planes : velocity) planes.set(offset, vector(velocities[i]));
     }
+}
+
+template <class T>
+void PlainCloth<T>::take_mass(std::size_t node)
+{
+    inverse_mass[layout.offset(node)] = static_cast<T>(model.inverse_masses[node]);
 }
 
 template <class T>
 std::size_t PlainCloth<T>::size_of(const Call& call) const
 {
     if (call.pass == Pass::attach) return model.attached.size();
+    if (call.pass == Pass::grab) return 1;
     if (is_body_pass(call.pass)) return body.size_of(call);
     switch (description_of(call.pass).size) {
         case PassSize::block: return tree.levels[call.pass == Pass::measure_merge ? call.index : 0].count;
@@ -81,6 +104,7 @@ void PlainCloth<T>::run(const Call& call, const StepConstants<T>& constants,
         case Pass::mesh_wind: return mesh_wind(call, constants, begin, end);
         case Pass::sheet_step: return sheet_step(call, constants, colliders, begin, end);
         case Pass::attach: return attach(call, constants, begin, end);
+        case Pass::grab: return grab(call, constants);
         case Pass::spring_force: return spring_forces(call, constants, begin, end);
         case Pass::list_step: return list_step(call, constants, colliders, begin, end);
         case Pass::sheet_measure:
@@ -186,6 +210,16 @@ void PlainCloth<T>::attach(const Call& call, const StepConstants<T>& c, std::siz
         velocity[1 - call.parity].set(offset, (next - position[call.parity].get(offset)) * (T(1) / c.dt));
         position[1 - call.parity].set(offset, next);
     }
+}
+
+/// The velocity that a hand gives the node it holds, before the step.
+template <class T>
+void PlainCloth<T>::grab(const Call& call, const StepConstants<T>& c)
+{
+    const std::size_t offset = layout.offset(c.grabbed_node);
+    Planes<T>& v = velocity[call.parity];
+    v.set(offset, L::grabbed_velocity(position[call.parity].get(offset), v.get(offset), c.grab_target,
+                                      c.gravity, c.grab_pull, c.grab_hold, c.dt));
 }
 
 template <class T>

@@ -51,7 +51,12 @@ struct StepConstants {
 
     std::span<const Vec3> attached = {};  ///< m, places of attached nodes, a row for each step of the frame
 
+    std::uint32_t grabbed_node = 0;  ///< see GrabInput
+    Vector3<T> grab_target{};
+    T grab_pull{}, grab_hold{};
+
     StepConstants(const ClothModel& model, double step_length);
+    void set(const GrabInput& grab);
 };
 
 template <class T>
@@ -70,6 +75,9 @@ public:
     void run(const Call& call, const StepConstants<T>& constants, std::span<const Collider> colliders,
              std::size_t begin, std::size_t end);
     void read(Resource resource, std::uint32_t parity, std::vector<float>& values) const;
+    /// See PassRunner.
+    void write(std::span<const Vec3> positions, std::span<const Vec3> velocities);
+    void take_mass(std::size_t node);
     MeasureTotals totals() const;
 
     const ClothModel& model;
@@ -97,6 +105,7 @@ private:
     void sheet_step(const Call&, const StepConstants<T>&, std::span<const Collider>, std::size_t,
                     std::size_t);
     void attach(const Call&, const StepConstants<T>&, std::size_t, std::size_t);
+    void grab(const Call&, const StepConstants<T>&);
     void list_step(const Call&, const StepConstants<T>&, std::span<const Collider>, std::size_t, std::size_t);
     void spring_forces(const Call&, const StepConstants<T>&, std::size_t, std::size_t);
     void sheet_wind(const Call&, const StepConstants<T>&, std::size_t, std::size_t);

@@ -148,10 +148,18 @@ SolverState<T>::SolverState(const ClothModel& model, const Hierarchy& hierarchy)
     part_stride_ = sum_parts.stride;
     parts_.assign(static_cast<std::size_t>(sum_parts.stride) * sum_slot_count, T(0));
     part_counts_.assign(sum_parts.counts.begin(), sum_parts.counts.end());
+    mass_ = AlignedArray<T>(
+        NodeLayout(static_cast<std::size_t>(cloth.rows), static_cast<std::size_t>(cloth.columns)).size);
+    for (std::size_t i = 0; i < model.node_count(); ++i) take_mass(model, i);
+}
+
+template <class T>
+void SolverState<T>::take_mass(const ClothModel& model, std::size_t node)
+{
+    if (hierarchy_->empty()) return;
+    const SolverLevel& cloth = hierarchy_->levels.front();
     const NodeLayout layout(static_cast<std::size_t>(cloth.rows), static_cast<std::size_t>(cloth.columns));
-    mass_ = AlignedArray<T>(layout.size);
-    for (std::size_t i = 0; i < model.node_count(); ++i)
-        mass_[layout.offset(i)] = static_cast<T>(model.masses[i]);
+    mass_[layout.offset(node)] = static_cast<T>(model.masses[node]);
 }
 
 template <class T>

@@ -49,6 +49,9 @@ public:
     /// Runs a pass that has one invocation, and by the scalar kernels a part of any other.
     void run(const Call& call, const SolverContext<T>& context, std::size_t begin, std::size_t end) const;
 
+    /// Takes over the mass that the model has of a node now.
+    void take_mass(const ClothModel& model, std::size_t node);
+
     std::span<const T> scalars() const { return scalars_; }
     std::span<const T> arena() const { return {arena_.data(), hierarchy_->number_count}; }
     const Hierarchy& hierarchy() const { return *hierarchy_; }

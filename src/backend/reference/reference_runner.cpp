@@ -23,6 +23,7 @@ public:
             constants.emplace_back(cloth.model, input.step_length);
             if (!input.attached.empty()) constants.back().attached = input.attached[constants.size() - 1];
             if (!input.goals.empty()) constants.back().goals = input.goals[constants.size() - 1];
+            constants.back().set(input.grab);
             solver_constants.push_back(make_solver_constants<double>(cloth.model, input.step_length));
         }
         std::vector<Laws<double>::Collider> colliders;
@@ -55,6 +56,16 @@ public:
     {
         cloths_[cloth].read(resource, parity, values);
     }
+    void write(std::uint32_t cloth, std::span<const Vec3> positions,
+               std::span<const Vec3> velocities) override
+    {
+        cloths_[cloth].write(positions, velocities);
+    }
+    void take_mass(std::uint32_t cloth, std::uint32_t node) override
+    {
+        cloths_[cloth].take_mass(node);
+        solvers_[cloth].take_mass(cloths_[cloth].model, node);
+    }
     std::vector<double> volumes(std::uint32_t cloth) override { return cloths_[cloth].body.volumes; }
     std::vector<double> solver_scalars(std::uint32_t cloth) override
     {
@@ -62,7 +73,7 @@ public:
         return {values.begin(), values.end()};
     }
     MeasureTotals measures(std::uint32_t cloth) override { return cloths_[cloth].totals(); }
-    std::vector<PassTime> pass_times() const override { return clock_.times(); }
+    const PassClock& clock() const override { return clock_; }
     std::string device_name() const override { return "CPU, one thread, double"; }
     unsigned thread_count() const override { return 1; }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 
 namespace pliant::vulkan {
@@ -26,7 +27,8 @@ struct Parameters {
     std::uint32_t collider_count = 0, colliders_rest = 0, has_air = 0, attached_first = 0;
     Float4 gravity_dt, gravity_direction, wind_density, drag_lift_thickness, stiffness, spring_damping;
     Float4 rest_lengths, rest_lengths_more;
-    std::uint32_t colliders_first = 0, goals_first = 0, goals_stride = 0, unused = 0;
+    std::uint32_t colliders_first = 0, goals_first = 0, goals_stride = 0, grabbed_node = 0;
+    Float4 grab_target;
 };
 
 }  // namespace
@@ -37,6 +39,27 @@ vk::raii::DescriptorSetLayout make_cloth_layout(const Device& device)
     for (std::uint32_t b = 0; b < binding_count; ++b)
         bindings.emplace_back(b, type_of(static_cast<Binding>(b)), 1, vk::ShaderStageFlagBits::eCompute);
     return {device.handle(), vk::DescriptorSetLayoutCreateInfo({}, bindings)};
+}
+
+void ClothBuffers::write(const Device& device, std::span<const Vec3> positions,
+                         std::span<const Vec3> velocities)
+{
+    std::vector<Float4> values(positions.size());
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = float4(positions[i], static_cast<float>(model_->inverse_masses[i]));
+    for (const Buffer& buffer : position_)
+        device.write(buffer, values.data(), values.size() * sizeof(Float4));
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = float4(velocities[i], model_->masses[i]);
+    for (const Buffer& buffer : velocity_)
+        device.write(buffer, values.data(), values.size() * sizeof(Float4));
+}
+
+void ClothBuffers::take_mass(const Device& device, std::uint32_t node)
+{
+    const float mass = model_->masses[node], inverse = static_cast<float>(model_->inverse_masses[node]);
+    const std::size_t at = node * sizeof(Float4) + offsetof(Float4, w);
+    for (const Buffer& buffer : position_) device.write(buffer, &inverse, sizeof inverse, at);
+    for (const Buffer& buffer : velocity_) device.write(buffer, &mass, sizeof mass, at);
 }
 
 Buffer ClothBuffers::filled(const Device& device, const void* data, std::size_t bytes, const char* name) const
@@ -163,9 +186,10 @@ void ClothBuffers::bind_colliders(const Device& device, const Buffer& colliders)
 }
 
 void ClothBuffers::set_parameters(double step_length, std::uint32_t collider_count, bool colliders_rest,
-                                  const FrameRows& rows)
+                                  const FrameRows& rows, const GrabInput& grab)
 {
-    const StepConstants<float> c(*model_, step_length);
+    StepConstants<float> c(*model_, step_length);
+    c.set(grab);
     Parameters p;
     if (model_->sheet) {
         p.rows = model_->sheet->rows;
@@ -189,6 +213,9 @@ void ClothBuffers::set_parameters(double step_length, std::uint32_t collider_cou
     p.goals_stride = rows.goals_stride;
     p.rest_lengths_more.x = c.rest_lengths[4];
     p.rest_lengths_more.y = step_length > 0 ? 1 / c.dt : 0;
+    p.rest_lengths_more.z = c.grab_hold;
+    p.grabbed_node = c.grabbed_node;
+    p.grab_target = float4(c.grab_target, c.grab_pull);
     std::memcpy(parameters_.mapped, &p, sizeof p);
     solver_.set_constants(step_length);
 }

@@ -33,7 +33,10 @@ public:
         std::uint32_t goals = 0, goals_stride = 0;  ///< in rows of four numbers; from step to step
     };
     void set_parameters(double step_length, std::uint32_t collider_count, bool colliders_rest,
-                        const FrameRows& rows);
+                        const FrameRows& rows, const GrabInput& grab);
+    /// See PassRunner.
+    void write(const Device& device, std::span<const Vec3> positions, std::span<const Vec3> velocities);
+    void take_mass(const Device& device, std::uint32_t node);
 
     /// The buffer behind a resource; for next_* that of the other parity.
     const Buffer& buffer(Resource resource, std::uint32_t parity) const;

@@ -74,9 +74,10 @@ PhysicalDeviceInfo describe(const vk::raii::PhysicalDevice& physical, int index)
     return info;
 }
 
-vk::raii::Instance make_instance(const vk::raii::Context& context, bool validation)
+vk::raii::Instance make_instance(const vk::raii::Context& context, bool validation,
+                                 std::vector<const char*> extensions = {})
 {
-    std::vector<const char*> layers, extensions;
+    std::vector<const char*> layers;
     if (validation) {
         const auto available = context.enumerateInstanceLayerProperties();
         if (std::none_of(available.begin(), available.end(), [](const auto& layer) {
@@ -136,7 +137,7 @@ try {
 
 void Device::open(const DeviceOptions& options)
 {
-    instance_ = make_instance(context_, options.validation);
+    instance_ = make_instance(context_, options.validation, options.surface_extensions);
     if (options.validation) {
         using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
         using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
@@ -181,7 +182,19 @@ void Device::open(const DeviceOptions& options)
     const auto available = physical_.getFeatures();
     vk::PhysicalDeviceFeatures features;
     features.fillModeNonSolid = available.fillModeNonSolid;  // the wireframe overlay
-    device_ = {physical_, vk::DeviceCreateInfo({}, queue, {}, {}, &features)};
+    draws_wires_ = features.fillModeNonSolid == VK_TRUE;
+    std::vector<const char*> extensions;
+    if (!options.surface_extensions.empty()) {
+        const auto offered = physical_.enumerateDeviceExtensionProperties();
+        if (std::none_of(offered.begin(), offered.end(), [](const auto& extension) {
+                return std::strcmp(extension.extensionName, VK_KHR_SWAPCHAIN_EXTENSION_NAME) == 0;
+            }))
+            throw Error(ErrorKind::device_failure, "the device " + info_.name +
+                                                       " cannot show pictures in a window; choose another "
+                                                       "with --device, or use --headless");
+        extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    }
+    device_ = {physical_, vk::DeviceCreateInfo({}, queue, {}, extensions, &features)};
     queue_ = device_.getQueue(queue_family_, 0);
     pool_ = {device_, {vk::CommandPoolCreateFlagBits::eResetCommandBuffer, queue_family_}};
     fence_ = {device_, vk::FenceCreateInfo{}};
@@ -257,11 +270,11 @@ void Device::run(const vk::raii::CommandBuffer& commands) const
         throw vk::SystemError(vk::make_error_code(vk::Result::eTimeout), "waiting for the device");
 }
 
-void Device::write(const Buffer& target, const void* data, std::size_t bytes) const
+void Device::write(const Buffer& target, const void* data, std::size_t bytes, std::size_t offset) const
 {
     if (bytes == 0) return;
     if (target.mapped) {
-        std::memcpy(target.mapped, data, bytes);
+        std::memcpy(static_cast<char*>(target.mapped) + offset, data, bytes);
         return;
     }
     const Buffer staging =
@@ -269,7 +282,7 @@ void Device::write(const Buffer& target, const void* data, std::size_t bytes) co
     std::memcpy(staging.mapped, data, bytes);
     const auto commands = make_commands();
     commands.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
-    commands.copyBuffer(*staging, *target, vk::BufferCopy(0, 0, bytes));
+    commands.copyBuffer(*staging, *target, vk::BufferCopy(0, offset, bytes));
     barrier(commands, vk::PipelineStageFlagBits::eTransfer, vk::AccessFlagBits::eTransferWrite,
             vk::PipelineStageFlagBits::eAllCommands,
             vk::AccessFlagBits::eMemoryRead | vk::AccessFlagBits::eMemoryWrite);

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -16,6 +17,8 @@ namespace pliant::vulkan {
 struct DeviceOptions {
     int index = -1;  ///< as listed by list_physical_devices(); -1 takes the best: discrete, integrated,
                      ///< virtual, other, software
+    /// Of a window: instance extensions that its surface needs; with any, the device can present, too.
+    std::vector<const char*> surface_extensions = {};
     bool validation = false;  ///< with VK_LAYER_KHRONOS_validation, whose messages are counted and printed
 };
 
@@ -65,6 +68,7 @@ public:
     const vk::raii::Instance& instance() const { return instance_; }
     std::uint32_t queue_family() const { return queue_family_; }
     bool can_draw() const { return can_draw_; }                    ///< the queue does graphics too
+    bool draws_wires() const { return draws_wires_; }              ///< triangles as lines
     double timestamp_period() const { return timestamp_period_; }  ///< ns per tick; 0 without timestamps
     /// Ticks between two timestamps, of which only the queue's valid bits count.
     std::uint64_t ticks_between(std::uint64_t first, std::uint64_t second) const
@@ -83,11 +87,16 @@ public:
 
     /// A primary command buffer that can be submitted again and again.
     vk::raii::CommandBuffer make_commands() const;
+    /// The queue of everything, for who submits without waiting.
+    const vk::raii::Queue& queue() const { return queue_; }
+    /// What someone wants to keep as long as the device lives, pipelines for one, under a name; it must not
+    /// own the device.
+    std::shared_ptr<void>& kept(const char* name) const { return kept_[name]; }
     /// Submits and waits; throws vk::SystemError when the device is lost.
     void run(const vk::raii::CommandBuffer& commands) const;
 
     /// Copies through a staging buffer and waits. For set-up and read-back, not for the frame loop.
-    void write(const Buffer& target, const void* data, std::size_t bytes) const;
+    void write(const Buffer& target, const void* data, std::size_t bytes, std::size_t offset = 0) const;
     void read(const Buffer& source, void* data, std::size_t bytes) const;
 
     /// Messages of the validation layer so far (warnings and errors).
@@ -106,7 +115,7 @@ private:
     vk::raii::PhysicalDevice physical_{nullptr};
     PhysicalDeviceInfo info_;
     std::uint32_t queue_family_ = 0;
-    bool can_draw_ = false;
+    bool can_draw_ = false, draws_wires_ = false;
     double timestamp_period_ = 0;
     std::uint32_t timestamp_bits_ = 0;
     vk::raii::Device device_{nullptr};
@@ -114,6 +123,7 @@ private:
     vk::raii::CommandPool pool_{nullptr};
     vk::raii::Fence fence_{nullptr};
     vk::PhysicalDeviceMemoryProperties memory_properties_;
+    mutable std::map<std::string, std::shared_ptr<void>> kept_;
 };
 
 /// Full barrier between everything before and everything after, for commands recorded by hand.

@@ -23,8 +23,11 @@ public:
     virtual const std::shared_ptr<vulkan::Device>& device() const = 0;
     /// Brings normals and strains up to the current positions on the device, and names the buffers, which
     /// stay the same buffers for the life of the simulation except `position`, which alternates between two.
-    /// Cloths are numbered as the simulation has its models: those of a scene without soft bodies are its cloths.
+    /// Cloths are numbered as the simulation has its models: those of a scene without soft bodies are its
+    /// cloths.
     virtual DeviceClothBuffers drawable(std::size_t cloth) = 0;
+    /// `position` of `drawable`, without bringing anything up to it.
+    virtual vk::Buffer positions_on_device(std::size_t cloth) const = 0;
 };
 
 }  // namespace pliant

@@ -19,6 +19,9 @@ constexpr std::uint32_t sheet_step[] = {
 constexpr std::uint32_t attach[] = {
 #include "shaders/attach.comp.inc"
 };
+constexpr std::uint32_t grab[] = {
+#include "shaders/grab.comp.inc"
+};
 constexpr std::uint32_t spring_force[] = {
 #include "shaders/spring_force.comp.inc"
 };

@@ -96,23 +96,76 @@ private:
     std::set<Key> written_, read_;
 };
 
+/// The pipelines of passes; compiling them takes its time, so that all simulations of a device share them.
+class PassPipelines {
+public:
+    explicit PassPipelines(const Device& device) : sets(make_cloth_layout(device))
+    {
+        const vk::PushConstantRange push(vk::ShaderStageFlagBits::eCompute, 0, sizeof(Push));
+        const vk::DescriptorSetLayout of_sets = *sets;
+        layout = {device.handle(), vk::PipelineLayoutCreateInfo({}, of_sets, push)};
+        for (std::size_t p = 0; p < all_passes().size(); ++p) pipelines_.emplace_back(nullptr);
+    }
+
+    /// Those of a device.
+    static std::shared_ptr<PassPipelines> of(const Device& device)
+    {
+        std::shared_ptr<void>& kept = device.kept("pass pipelines");
+        if (!kept) kept = std::make_shared<PassPipelines>(device);
+        return std::static_pointer_cast<PassPipelines>(kept);
+    }
+
+    /// Makes those that some cloths need and that are not there yet.
+    void make(const Device& device, std::span<const ClothModel> models)
+    {
+        const bool solved = std::any_of(models.begin(), models.end(), needs_solver);
+        const bool bodies = std::any_of(models.begin(), models.end(),
+                                        [](const ClothModel& model) { return model.is_body(); });
+        const auto properties =
+            device.physical()
+                .getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceFloatControlsProperties>();
+        const auto& controls = properties.get<vk::PhysicalDeviceFloatControlsProperties>();
+        const FloatControls modes{controls.shaderDenormFlushToZeroFloat32 == VK_TRUE,
+                                  controls.shaderRoundingModeRTEFloat32 == VK_TRUE};
+        for (std::uint32_t p = 0; p < pipelines_.size(); ++p) {
+            const auto pass = static_cast<Pass>(p);
+            if (*pipelines_[p] || (is_solver_pass(pass) && !solved) || (is_body_pass(pass) && !bodies))
+                continue;
+            const auto module =
+                device.make_shader(with_float_controls(with_exact_arithmetic(compute_shader(pass)), modes));
+            const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module,
+                                                          "main");
+            pipelines_[p] = {device.handle(), nullptr, vk::ComputePipelineCreateInfo({}, stage, *layout)};
+        }
+    }
+    vk::Pipeline operator[](Pass pass) const { return *pipelines_[static_cast<std::size_t>(pass)]; }
+
+    vk::raii::DescriptorSetLayout sets;
+    vk::raii::PipelineLayout layout{nullptr};
+
+private:
+    std::vector<vk::raii::Pipeline> pipelines_;  // by Pass
+};
+
+std::shared_ptr<Device> device_for(const SimulationOptions& options)
+{
+    if (options.shared_device) return options.shared_device;
+    return std::make_shared<Device>(DeviceOptions{.index = options.device, .validation = options.validation});
+}
+
 class Runner final : public VulkanRunner {
 public:
     Runner(std::span<const ClothModel> models, const SimulationOptions& options)
-        : device_(std::make_shared<Device>(DeviceOptions{options.device, options.validation})),
-          layout_(make_cloth_layout(*device_))
+        : device_(device_for(options)), pipelines_(PassPipelines::of(*device_))
     {
-        const vk::PushConstantRange push(vk::ShaderStageFlagBits::eCompute, 0, sizeof(Push));
-        const vk::DescriptorSetLayout layout = *layout_;
-        pipeline_layout_ = {device_->handle(), vk::PipelineLayoutCreateInfo({}, layout, push)};
-        make_pipelines(models);
+        pipelines_->make(*device_, models);
         for (const ClothModel& model : models) {
             const auto known = std::find(origins_.begin(), origins_.end(), model.origin);
             origin_of_.push_back(static_cast<std::size_t>(known - origins_.begin()));
             if (known == origins_.end()) origins_.push_back(model.origin);
         }
         cloths_.reserve(models.size());
-        for (const ClothModel& model : models) cloths_.emplace_back(*device_, model, layout_);
+        for (const ClothModel& model : models) cloths_.emplace_back(*device_, model, pipelines_->sets);
         check_sizes(models);
         reserve_colliders(1);
     }
@@ -140,7 +193,8 @@ public:
             at.goals = static_cast<std::uint32_t>(first);
             first += write_goals(c, input, first, at.goals_stride);
             at.attached = static_cast<std::uint32_t>(first);
-            cloths_[c].set_parameters(input.step_length, input.collider_count, input.colliders_rest, at);
+            cloths_[c].set_parameters(input.step_length, input.collider_count, input.colliders_rest, at,
+                                      input.grab);
             if (input.attached.empty()) continue;
             const auto& nodes = cloths_[c].model().attached;
             for (std::size_t k = 0; k < input.attached[c].size(); ++k, ++first) {
@@ -187,18 +241,33 @@ public:
             std::memcpy(&values[numbers * i], &padded[i], numbers * sizeof(float));
     }
 
+    void write(std::uint32_t cloth, std::span<const Vec3> positions,
+               std::span<const Vec3> velocities) override
+    {
+        cloths_[cloth].write(*device_, positions, velocities);
+    }
+    void take_mass(std::uint32_t cloth, std::uint32_t node) override
+    {
+        cloths_[cloth].take_mass(*device_, node);
+    }
+
     std::vector<double> volumes(std::uint32_t cloth) override { return cloths_[cloth].body().volumes(); }
     std::vector<double> solver_scalars(std::uint32_t cloth) override
     {
         return cloths_[cloth].solver().scalar_values();
     }
     MeasureTotals measures(std::uint32_t cloth) override { return cloths_[cloth].totals(); }
-    std::vector<PassTime> pass_times() const override { return clock_.times(); }
+    const PassClock& clock() const override { return clock_; }
     std::string device_name() const override { return device_->info().name; }
     unsigned thread_count() const override { return 0; }
     std::uint64_t validation_messages() const override { return device_->validation_messages(); }
 
     const std::shared_ptr<Device>& device() const override { return device_; }
+
+    vk::Buffer positions_on_device(std::size_t cloth) const override
+    {
+        return *cloths_[cloth].buffer(Resource::position, parity_);
+    }
 
     DeviceClothBuffers drawable(std::size_t cloth) override
     {
@@ -246,34 +315,6 @@ private:
         return goals.size();
     }
 
-    /// Of the constraint solver's passes, and of soft bodies', only when a cloth needs them: compiling them
-    /// takes its time.
-    void make_pipelines(std::span<const ClothModel> models)
-    {
-        const bool solved = std::any_of(models.begin(), models.end(), needs_solver);
-        const bool bodies = std::any_of(models.begin(), models.end(),
-                                        [](const ClothModel& model) { return model.is_body(); });
-        const auto properties =
-            device_->physical()
-                .getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceFloatControlsProperties>();
-        const auto& controls = properties.get<vk::PhysicalDeviceFloatControlsProperties>();
-        const FloatControls modes{controls.shaderDenormFlushToZeroFloat32 == VK_TRUE,
-                                  controls.shaderRoundingModeRTEFloat32 == VK_TRUE};
-        for (std::uint32_t p = 0; p < all_passes().size(); ++p) {
-            if (is_solver_pass(static_cast<Pass>(p)) && !solved) break;
-            if (is_body_pass(static_cast<Pass>(p)) && !bodies) {
-                pipelines_.emplace_back(nullptr);
-                continue;
-            }
-            const auto module = device_->make_shader(
-                with_float_controls(with_exact_arithmetic(compute_shader(static_cast<Pass>(p))), modes));
-            const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module,
-                                                          "main");
-            pipelines_.emplace_back(device_->handle(), nullptr,
-                                    vk::ComputePipelineCreateInfo({}, stage, *pipeline_layout_));
-        }
-    }
-
     Groups groups_of(const Call& call) const
     {
         const ClothBuffers& cloth = cloths_[call.cloth];
@@ -291,6 +332,7 @@ private:
             case Pass::sheet_measure:
             case Pass::list_measure: return {cloth.tree().levels.front().count};
             case Pass::measure_merge: return {cloth.tree().levels[call.index].count};
+            case Pass::grab: return {1};
             case Pass::attach: return {groups(model.attached.size(), linear_group)};
             case Pass::spring_force: return {groups(model.springs.size(), linear_group)};
             default: return {groups(model.node_count(), linear_group)};
@@ -410,11 +452,10 @@ private:
         push.slot_count = slots.count;
         const Groups groups = groups_of(call);
         if (groups.x == 0) return;  // a mesh without springs
-        commands.bindPipeline(vk::PipelineBindPoint::eCompute,
-                              *pipelines_[static_cast<std::size_t>(call.pass)]);
-        commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *pipeline_layout_, 0,
+        commands.bindPipeline(vk::PipelineBindPoint::eCompute, (*pipelines_)[call.pass]);
+        commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *pipelines_->layout, 0,
                                     cloth.set(call.parity), {});
-        commands.pushConstants<Push>(*pipeline_layout_, vk::ShaderStageFlagBits::eCompute, 0, push);
+        commands.pushConstants<Push>(*pipelines_->layout, vk::ShaderStageFlagBits::eCompute, 0, push);
         commands.dispatch(static_cast<std::uint32_t>(groups.x), static_cast<std::uint32_t>(groups.y), 1);
     }
 
@@ -435,9 +476,7 @@ private:
     }
 
     std::shared_ptr<Device> device_;
-    vk::raii::DescriptorSetLayout layout_;
-    vk::raii::PipelineLayout pipeline_layout_{nullptr};
-    std::vector<vk::raii::Pipeline> pipelines_;  // by Pass
+    std::shared_ptr<PassPipelines> pipelines_;
     std::vector<ClothBuffers> cloths_;
     std::vector<Vec3d> origins_;          ///< different ones, of all cloths
     std::vector<std::size_t> origin_of_;  ///< by cloth, index into origins_

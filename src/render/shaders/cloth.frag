@@ -3,13 +3,11 @@
 #include "frame.glsl"
 #include "shading.glsl"
 #include "pattern.glsl"
-#include "strain_colour.glsl"
-
-layout(constant_id = 0) const bool show_strain = false;
+#include "value_colour.glsl"
 
 layout(location = 0) in vec3 point;
 layout(location = 1) in vec3 normal;
-layout(location = 2) in vec3 pattern_and_strain;
+layout(location = 2) in vec3 pattern_and_value;
 layout(location = 0) out vec4 colour;
 
 void main()
@@ -19,10 +17,10 @@ void main()
     // The geometric side decides, not the interpolated normal, which would speckle along silhouettes.
     vec3 side = normalize(gl_FrontFacing ? normal : -normal);
     vec3 albedo;
-    if (show_strain)
-        albedo = 0.85 * strain_colour(pattern_and_strain.z / frame.strain_range);
+    if (frame.colours != 0u)
+        albedo = 0.85 * value_colour((pattern_and_value.z - frame.value_low) / (frame.value_high - frame.value_low));
     else
         albedo = mix(gl_FrontFacing ? front_dark : back_dark, gl_FrontFacing ? front_light : back_light,
-                     checker(pattern_and_strain.xy));
+                     checker(pattern_and_value.xy));
     colour = vec4(shade(albedo, point, side, 0.06, 18.0, 0.25), 1.0);
 }

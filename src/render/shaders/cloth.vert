@@ -5,12 +5,12 @@
 
 layout(location = 0) out vec3 point;
 layout(location = 1) out vec3 normal;
-layout(location = 2) out vec3 pattern_and_strain;
+layout(location = 2) out vec3 pattern_and_value;
 
 void main()
 {
-    point = positions[gl_VertexIndex].xyz;
+    point = seen_position(gl_VertexIndex);
     normal = normals[gl_VertexIndex].xyz;
-    pattern_and_strain = vec3(pattern[gl_VertexIndex], strains[gl_VertexIndex]);
+    pattern_and_value = vec3(pattern[gl_VertexIndex], values[gl_VertexIndex]);
     gl_Position = frame.clip_from_world * vec4(point, 1.0);
 }

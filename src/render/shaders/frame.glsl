@@ -6,6 +6,7 @@ layout(set = 0, binding = 0) uniform Frame {
     vec4 to_light;           // unit length
     vec4 picture;            // width and height in pixels, 1 / both
     float shadow_texel;      // m, edge of a texel of the shadow map
-    float strain_range;      // the strain at the upper end of the colour map
-    float pad0, pad1;
+    float value_low, value_high;  // the ends of the colour map
+    float blend;             // what is seen lies between the state before (0) and the last one (1)
+    uint colours;            // of cloth: 0 a checker, 1 by value, 2 by value around a middle
 } frame;

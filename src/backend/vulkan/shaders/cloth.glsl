@@ -17,8 +17,10 @@ layout(set = 0, binding = 0, std140) uniform Parameters
     vec4 stiffness;            // N/m by class
     vec4 spring_damping;       // N s/m by class
     vec4 rest_lengths;         // m: along a row, along a column, diagonal, two along a row
-    vec4 rest_lengths_more;    // m: two along a column; y: 1/s, of a step
-    uvec4 rows_first;          // in collider_rows: of colliders, in rows of 8; of a body's goals, and from step to step
+    vec4 rest_lengths_more;    // m: two along a column; y: 1/s, of a step; z: how a hand holds
+    uvec4 rows_first;          // in collider_rows: of colliders, in rows of 8; of a body's goals, and from step to step;
+                               // w: the node that a hand holds
+    vec4 grab_target;          // m; w: 1/s, how the hand pulls
 } parameters;
 
 // The step of the frame, or the level of the tree, that a call is for; and for a level, where its values lie. Of the
@@ -30,7 +32,10 @@ layout(push_constant) uniform Push
 } push;
 
 layout(set = 0, binding = 1, std430) readonly buffer PositionIn { vec4 position_in[]; };  // w: inverse mass, 1/kg
-layout(set = 0, binding = 2, std430) readonly buffer VelocityIn { vec4 velocity_in[]; };  // w: mass, kg
+#ifndef VELOCITY_IN_ACCESS
+#define VELOCITY_IN_ACCESS readonly
+#endif
+layout(set = 0, binding = 2, std430) VELOCITY_IN_ACCESS buffer VelocityIn { vec4 velocity_in[]; };  // w: mass, kg
 #ifndef POSITION_OUT_ACCESS
 #define POSITION_OUT_ACCESS writeonly
 #endif

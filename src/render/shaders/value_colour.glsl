@@ -1,6 +1,6 @@
 // Viridis, a map whose steps look equal (S. van der Walt and N. Smith, CC0), as the degree 6 polynomial fitted to it by
 // M. Zucker (CC0). Its values are sRGB; the power 2.2 takes them back to linear light.
-vec3 strain_colour(float t)
+vec3 viridis(float t)
 {
     t = clamp(t, 0.0, 1.0);
     const vec3 c0 = vec3(0.2777273272, 0.0054073445, 0.3340998053);
@@ -13,3 +13,13 @@ vec3 strain_colour(float t)
     vec3 srgb = c0 + t * (c1 + t * (c2 + t * (c3 + t * (c4 + t * (c5 + t * c6)))));
     return pow(clamp(srgb, 0.0, 1.0), vec3(2.2));
 }
+
+// From blue over white to red, for values around a middle at t = 0.5.
+vec3 diverging(float t)
+{
+    t = clamp(t, 0.0, 1.0) * 2.0 - 1.0;
+    vec3 end = t < 0.0 ? vec3(0.03, 0.10, 0.48) : vec3(0.50, 0.02, 0.03);
+    return mix(vec3(0.86), end, sqrt(abs(t)));
+}
+
+vec3 value_colour(float t) { return frame.colours == 2u ? diverging(t) : viridis(t); }

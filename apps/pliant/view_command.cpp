@@ -1,0 +1,129 @@
+// pliant view: a window in which a scene moves, or the same without one.
+#include <chrono>
+#include <cstdio>
+#include <limits>
+
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "files/atomic_file.hpp"
+#include "record/run_record.hpp"
+#include "viewer/script.hpp"
+#include "viewer/viewer.hpp"
+
+namespace pliant::tool {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A line of JSON for each frame: what events have done.
+class SessionLog {
+public:
+    explicit SessionLog(const std::string& file)
+    {
+        if (!file.empty()) file_ = std::make_unique<AtomicFile>(file);
+    }
+
+    void add(std::uint64_t frame, Viewer& viewer)
+    {
+        if (!file_) return;
+        Session& session = viewer.session();
+        Simulation& simulation = session.simulation();
+        const auto numbers = [](Vec3d a) { return nlohmann::json::array({a.x, a.y, a.z}); };
+        const Camera camera = viewer.camera().camera();
+        nlohmann::json line = {
+            {"frame", frame},
+            {"scene", simulation.scene().name},
+            {"method", name_of(simulation.scene().method)},
+            {"time", simulation.time()},
+            {"hash", hash_text(simulation.state_hash())},
+            {"paused", session.paused},
+            {"finite", simulation.report().finite},
+            {"max_stretch", simulation.report().measures.max_stretch},
+            {"active", simulation.report().solver.active_last},
+            {"panel", viewer.view().panel},
+            {"help", viewer.view().help},
+            {"notice", session.notice},
+            {"size", {viewer.screen().size().width, viewer.screen().size().height}},
+            {"camera", {{"position", numbers(camera.position)}, {"target", numbers(camera.target)}}},
+            {"validation_messages", viewer.screen().device()->validation_messages()}};
+        line["overlays"] = nlohmann::json::array();
+        for (std::size_t k = 0; k < overlay_count; ++k)
+            if (viewer.view().overlays.has(static_cast<Overlay>(k)))
+                line["overlays"].push_back(overlay_names[k]);
+        std::size_t pins = 0;
+        for (std::size_t c = 0; c < simulation.scene().cloth_count(); ++c) pins += simulation.pins(c).size();
+        line["pins"] = pins;
+        const auto [centre, radius] = session.bounds();
+        line["centre"] = numbers(centre);
+        line["radius"] = radius;
+        if (const auto& held = session.held()) {
+            line["held"] = {held->cloth, held->node};
+            line["held_position"] = numbers(session.position_of(*held));
+            line["hand"] = numbers(session.hand());
+        }
+        file_->stream() << line.dump() << '\n';
+    }
+
+    void finish()
+    {
+        if (file_) file_->commit();
+    }
+
+private:
+    std::unique_ptr<AtomicFile> file_;
+};
+
+std::unique_ptr<Screen> make_screen(const ViewOptions& options)
+{
+    const auto [width, height] = picture_size(options.size.empty() ? "1280x720" : options.size);
+    const SimulationOptions& simulation = options.simulation;
+    if (options.headless)
+        return make_headless_screen(simulation.device, simulation.validation, width, height);
+    return make_window_screen(simulation.device, simulation.validation, width, height, "pliant");
+}
+
+}  // namespace
+
+int view_command(const ViewOptions& options)
+{
+    if (options.headless && !options.frames)
+        throw Error(ErrorKind::bad_usage, "--headless needs --frames: without a window, no one could end it");
+    std::vector<TimedEvent> script;
+    if (!options.script_file.empty()) script = read_script(options.script_file);
+    SessionLog log(options.log_file);
+    Viewer viewer(make_screen(options), options.simulation);
+    viewer.open(options.scene, options.overrides);
+    viewer.session().paused = options.paused;
+    if (!options.record_file.empty()) viewer.record(options.record_file);
+
+    // By a script, or without a window, time goes by frames: what happens does not depend on the machine.
+    const bool by_frames = options.headless || !options.script_file.empty();
+    constexpr double endless = std::numeric_limits<double>::infinity();
+    constexpr double longest = 0.25, patience = 1.0 / 30;  // s
+    auto next = script.begin();
+    auto last = Clock::now();
+    const auto start = last;
+    std::uint64_t frame = 0;
+    for (; !viewer.is_done() && frame < options.frames.value_or(~0ull); ++frame) {
+        for (; next != script.end() && next->frame <= frame; ++next) viewer.handle(next->event);
+        if (viewer.is_done()) break;
+        const auto now = Clock::now();
+        const double passed = std::chrono::duration<double>(now - last).count();
+        last = now;
+        viewer.frame(by_frames ? 1 / script_frame_rate : std::min(passed, longest),
+                     by_frames ? endless : patience);
+        log.add(frame, viewer);
+    }
+    log.finish();
+    const double wall = std::chrono::duration<double>(Clock::now() - start).count();
+    const FrameCost& cost = viewer.view().cost;
+    std::printf("%llu frames in %.3g s; of a frame, steps %.3g ms, driver %.3g ms, viewer %.3g ms\n",
+                static_cast<unsigned long long>(frame), wall, cost.simulation, cost.driver, cost.own);
+    if (const std::uint64_t messages = viewer.screen().device()->validation_messages(); messages > 0)
+        throw Error(ErrorKind::device_failure,
+                    "the validation layer had " + std::to_string(messages) + " messages");
+    return 0;
+}
+
+}  // namespace pliant::tool

@@ -1,0 +1,303 @@
+#include "viewer/session.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+
+#include "render/stage.hpp"
+
+namespace pliant::tool {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start)
+{
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+}  // namespace
+
+Method method_of(const std::string& name)
+{
+    for (const Method method : {Method::mass_spring, Method::constraint, Method::acad, Method::volume})
+        if (name == name_of(method)) return method;
+    throw Error(ErrorKind::bad_usage,
+                "'" + name + "' is no method: it must be mass_spring, constraint, acad or volume");
+}
+
+Scene scene_of_mesh(const std::string& file)
+{
+    SurfaceMesh mesh = read_mesh(file);
+    const MeshReport report = inspect_mesh(mesh);
+    const Vec3d extent = report.bounds_max - report.bounds_min;
+    const double largest = std::max({extent.x, extent.y, extent.z});
+    if (!(largest > 0))
+        throw Error(ErrorKind::bad_input,
+                    "the mesh '" + file + "' has no extent, so that it cannot be shown");
+    const double scale = 1 / largest;
+    const Vec3d middle = (report.bounds_min + report.bounds_max) * (0.5 * scale);
+    const Vec3d above = {-middle.x, 0.3 - scale * report.bounds_min.y, -middle.z};
+    Scene scene;
+    scene.name = std::filesystem::path(file).stem().string();
+    scene.add(Plane{});
+    if (report.closed) {
+        require_closed(mesh, file);
+        const double vertices = static_cast<double>(mesh.vertices.size());
+        auto body =
+            scene.add(Cloth::soft_body(std::move(mesh), {}, {.node_mass = 10 / vertices, .scale = scale}));
+        body->position = above;
+        body->springs.structural = {500, 0.5};
+        scene.method = Method::volume;
+    } else {
+        auto cloth = scene.add(Cloth::mesh(std::move(mesh), {.scale = scale}));
+        cloth->position = above;
+    }
+    scene.camera.position = {1.8, 1.3, 2.6};
+    scene.camera.target = {0, 0.5, 0};
+    return scene;
+}
+
+Session::Session(const SimulationOptions& options, std::shared_ptr<vulkan::Device> device)
+    : options_(options), device_(std::move(device))
+{
+}
+
+void Session::open(const std::string& scene_or_mesh, const std::vector<std::string>& overrides)
+{
+    Scene scene =
+        is_mesh_file(scene_or_mesh) ? scene_of_mesh(scene_or_mesh) : read_scene(scene_or_mesh, overrides);
+    start(std::move(scene), nullptr);
+    opened_ = scene_or_mesh;
+    overrides_ = overrides;
+    ++scene_number_;
+    held_.reset();
+    histories_.clear();
+    notice.clear();
+}
+
+void Session::start(Scene scene, const State* state)
+{
+    SimulationOptions options = options_;
+    options.shared_device = device_;
+    auto next = std::make_unique<Simulation>(scene, options);
+    if (state) next->set_state(*state);
+    if (before_change) before_change();
+    simulation_ = std::move(next);
+    scene_ = std::move(scene);
+    ++simulation_number_;
+    changed_ = stepped_ = false;
+    waiting_ = 0;
+    times_before_.clear();
+    pass_costs_.clear();
+    frames_timed_ = 0;
+    if (held_ && state) simulation_->grab(held_->cloth, held_->node, hand_, hand_stiffness, hand_damping);
+}
+
+void Session::apply_changes()
+{
+    if (!changed_) return;
+    changed_ = false;
+    try {
+        State state = simulation_->state();
+        // Who is pinned now must not move on.
+        start(scene_, &state);
+        notice.clear();
+    } catch (const Error& error) {
+        notice = error.what();
+        scene_ = simulation_->scene();
+    }
+}
+
+void Session::set(const std::string& path_is_value)
+{
+    if (is_mesh_file(opened_)) {
+        notice = "values of a mesh's scene can be changed in the panel alone";
+        return;
+    }
+    try {
+        overrides_.push_back(path_is_value);
+        scene_ = read_scene(opened_, overrides_);
+        scene_changed();
+    } catch (const Error& error) {
+        notice = error.what();
+        overrides_.pop_back();
+    }
+}
+
+void Session::set_method(Method method)
+{
+    scene_.method = method;
+    scene_changed();
+}
+
+void Session::reset()
+{
+    try {
+        held_.reset();
+        start(scene_, nullptr);
+        histories_.clear();
+    } catch (const Error& error) {
+        notice = error.what();
+        scene_ = simulation_->scene();
+    }
+}
+
+void Session::step()
+{
+    if (before_step) before_step();
+    const auto start = Clock::now();
+    simulation_->advance(1 / simulation_->scene().time.frame_rate);
+    record(seconds_since(start));
+    stepped_ = true;
+}
+
+void Session::step_once()
+{
+    apply_changes();
+    step();
+    waiting_ = 0;
+    stepped_ = false;  // the display shows this state, and none between
+}
+
+void Session::advance(double seconds, double patience)
+{
+    apply_changes();
+    step_seconds_ = 0;
+    if (paused) {
+        behind_ = false;
+        return;
+    }
+    const auto start = Clock::now();
+    const double frame = 1 / simulation_->scene().time.frame_rate;
+    constexpr double rounding = 1e-9;
+    waiting_ += speed * seconds;
+    unsigned steps = 0;
+    while (waiting_ >= frame - rounding && steps < most_steps && seconds_since(start) < patience) {
+        step();
+        waiting_ = std::max(0.0, waiting_ - frame);
+        ++steps;
+    }
+    step_seconds_ = seconds_since(start);
+    // What could not be done in time is dropped: slower than real time, but with a window that answers.
+    behind_ = waiting_ >= frame - rounding;
+    if (behind_) waiting_ = 0;
+    simulated_ += steps * frame;
+    measured_ += seconds;
+    if (measured_ >= 0.5) {
+        real_time_factor_ = simulated_ / measured_;
+        simulated_ = measured_ = 0;
+    }
+}
+
+float Session::blend() const
+{
+    if (paused || !stepped_) return 1;
+    return static_cast<float>(std::min(1.0, waiting_ * simulation_->scene().time.frame_rate));
+}
+
+void Session::record(double wall_seconds)
+{
+    const Report& report = simulation_->report();
+    const FrameMeasures& m = report.measures;
+    histories_.max_stretch.add(100 * m.max_stretch);
+    histories_.mean_stretch.add(100 * m.mean_stretch);
+    if (!report.bodies.empty()) histories_.volume.add(report.bodies.front().ratio);
+    histories_.energy.add(m.kinetic_energy + m.elastic_energy + m.potential_energy);
+    histories_.active.add(static_cast<double>(report.solver.active_last));
+    histories_.iterations.add(report.solver.iterations_last);
+    histories_.residual.add(report.solver.residual_last);
+    histories_.frame_time.add(1000 * wall_seconds);
+
+    constexpr unsigned frames_of_a_mean = 20;
+    if (++frames_timed_ % frames_of_a_mean != 0) return;
+    simulation_->pass_times(times_);
+    pass_costs_.resize(times_.size());
+    for (std::size_t k = 0; k < times_.size(); ++k) {
+        const bool known = k < times_before_.size() && times_before_[k].name == times_[k].name;
+        pass_costs_[k].name = times_[k].name;
+        pass_costs_[k].milliseconds =
+            (times_[k].milliseconds - (known ? times_before_[k].milliseconds : 0)) / frames_of_a_mean;
+    }
+    std::swap(times_, times_before_);
+}
+
+std::optional<NodeOf> Session::node_at(const OrbitCamera& camera, double x, double y, double width,
+                                       double height)
+{
+    constexpr double reach = 40, together = 6;  // pixels
+    const Matrix4 clip = clip_from_world(camera.camera(), width / height);
+    std::optional<NodeOf> best;
+    double best_distance = reach, best_depth = 0;
+    for (std::size_t c = 0; c < scene_.cloth_count(); ++c) {
+        const auto positions = simulation_->positions(c);
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            const Vec3d seen = seen_at(clip, to_double(positions[i]), width, height);
+            if (seen.z <= 0) continue;
+            const double distance = std::hypot(seen.x - x, seen.y - y);
+            // Of nodes behind each other the front one is meant, though another may be some pixels nearer.
+            const bool nearer = distance < best_distance - together ||
+                                (distance < best_distance + together && best && seen.z < best_depth) ||
+                                (!best && distance < reach);
+            if (!nearer || distance > reach) continue;
+            best = NodeOf{c, i};
+            best_distance = std::min(best_distance, distance);
+            best_depth = seen.z;
+        }
+    }
+    return best;
+}
+
+void Session::grab(NodeOf node, Vec3d target)
+{
+    held_ = node;
+    hand_ = target;
+    simulation_->grab(node.cloth, node.node, target, hand_stiffness, hand_damping);
+}
+
+void Session::move_hand(Vec3d target)
+{
+    if (held_) grab(*held_, target);
+}
+
+void Session::release()
+{
+    held_.reset();
+    simulation_->release();
+}
+
+Vec3d Session::position_of(NodeOf node) { return to_double(simulation_->positions(node.cloth)[node.node]); }
+
+void Session::toggle_pin(NodeOf node)
+{
+    apply_changes();
+    const auto pins = simulation_->pins(node.cloth);
+    const auto known =
+        std::find_if(pins.begin(), pins.end(), [&](const PinListing& pin) { return pin.node == node.node; });
+    Cloth& cloth = *scene_.cloth_handle(node.cloth);
+    if (known == pins.end()) {
+        cloth.pin(static_cast<std::uint32_t>(node.node));
+    } else if (known->moves) {
+        notice = "this node is held by a pin that moves: it cannot be released here";
+        return;
+    } else {
+        // Edges and regions become the nodes that they hold, all but this one.
+        std::erase_if(cloth.pins, [](const Attachment& pin) { return pin.keyframes.empty(); });
+        for (const PinListing& pin : pins)
+            if (!pin.moves && pin.node != node.node) cloth.pin(pin.node);
+    }
+    scene_changed();
+    apply_changes();
+}
+
+std::pair<Vec3d, double> Session::bounds()
+{
+    Bounds box;
+    for (std::size_t c = 0; c < scene_.cloth_count(); ++c)
+        for (const Vec3& x : simulation_->positions(c)) box.include(to_double(x));
+    if (box.empty()) return {{0, 0, 0}, 1};
+    return {(box.min + box.max) * 0.5, std::max(1e-3, 0.5 * length(box.max - box.min))};
+}
+
+}  // namespace pliant::tool

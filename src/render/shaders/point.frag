@@ -1,0 +1,11 @@
+#version 450
+
+layout(location = 0) in vec2 from_middle;
+layout(location = 1) in float depth;  // m, below the surface; at most 0 where it only touches
+layout(location = 0) out vec4 colour;
+
+void main()
+{
+    if (dot(from_middle, from_middle) > 1.0) discard;
+    colour = vec4(depth > 0.0 ? vec3(0.9, 0.02, 0.02) : vec3(0.95, 0.50, 0.02), 1.0);
+}

@@ -1,0 +1,9 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "frame.glsl"
+#include "cloth_nodes.glsl"
+
+void main()
+{
+    gl_Position = frame.clip_from_world * vec4(seen_position(gl_VertexIndex), 1.0);
+}
