@@ -71,13 +71,14 @@ TEST(Energy, OfADampedSheetNeverRises)
 
 /// Energy after each quarter of a second of a sheet of 1 m, held at two corners, let go from the horizontal,
 /// J.
-std::vector<double> energies(std::uint32_t newton, double newton_tolerance, double linear_tolerance)
+std::vector<double> energies(std::uint32_t newton, double newton_tolerance, std::uint32_t linear,
+                             double linear_tolerance)
 {
     Scene scene;
     scene.method = Method::constraint;
     scene.newton_multigrid.newton_iterations = newton;
     scene.newton_multigrid.newton_tolerance = newton_tolerance;
-    scene.newton_multigrid.linear_iterations = 60;
+    scene.newton_multigrid.linear_iterations = linear;
     scene.newton_multigrid.linear_tolerance = linear_tolerance;
     auto cloth = scene.add(Cloth::sheet({.rows = 32, .columns = 32, .density = 0.3}));
     cloth->springs.bend = {1, 0};
@@ -91,18 +92,18 @@ std::vector<double> energies(std::uint32_t newton, double newton_tolerance, doub
     return list;
 }
 
-TEST(Energy, WhatTheSolverLosesIsLessThanTwoPerCentOfAStepSolvedToAFiftieth)
+TEST(Energy, WhatTheSolverLosesIsLessThanTwoPerCent)
 {
-    // Row "solver honesty": energy lost against a converged run, < 2 % of m g L. The default, which leaves a
-    // step solved to a tenth for the sake of time, misses this bar: docs/verification.md has by how much.
-    const auto usual = energies(7, 0.1, 0.2), tight = energies(20, 0.02, 0.1),
-               converged = energies(30, 1e-4, 1e-3);
+    // Row "solver honesty": energy lost against a converged run, < 2 % of m g L, with the default tolerances
+    // and as many V-cycles as they take. The default allows six of them for the sake of time and misses this
+    // bar: by how much is measured here, and said in docs/verification.md.
+    const auto usual = energies(7, 0.1, 6, 0.2), enough = energies(7, 0.1, 60, 0.2),
+               converged = energies(20, 1e-3, 60, 1e-2);
     const double weight = 0.3 * 9.81;  // m g L
     for (std::size_t k = 0; k < usual.size(); ++k) {
         test::measured("energy lost by the default, over m g L", (converged[k] - usual[k]) / weight);
-        test::measured("energy lost when solved to a fiftieth, over m g L",
-                       (converged[k] - tight[k]) / weight);
-        EXPECT_NEAR(tight[k], converged[k], 0.02 * weight) << k;
+        test::measured("energy lost with enough V-cycles, over m g L", (converged[k] - enough[k]) / weight);
+        EXPECT_NEAR(enough[k], converged[k], 0.02 * weight) << k;
     }
 }
 
