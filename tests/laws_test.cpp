@@ -126,7 +126,15 @@ TEST(Spring, StretchAndEnergy)
     EXPECT_NEAR(D::spring_energy({0, 0, 0}, {3, 4, 0}, 4.0, 100.0), 50, 1e-12);
 }
 
-// --- integration
+TEST(Spring, BendingIsASpringOfNoLength)
+{
+    const VD force = D::bending_force({1, 2, 3}, {2, 0, 3}, -4.0);
+    EXPECT_EQ(force.x, -4);
+    EXPECT_EQ(force.y, 8);
+    EXPECT_EQ(force.z, 0);
+    EXPECT_EQ(D::bending_energy({1, 2, 3}, {2, 0, 3}, -4.0), -10);
+}
+
 // --- springs with limits ---
 
 const D::LimitCurve limit_curves[] = {
@@ -218,6 +226,31 @@ TEST(Integration, GrabbedNodeTakesTheSpringOfTheHandImplicitly)
     const double expected = (m * v + dt * (f + m * g + k * (t - x))) / heavier;
     EXPECT_NEAR(next.y, expected, 1e-14 * std::abs(expected) * 16);  // some roundings of a double
     EXPECT_EQ(next.x, 0);
+}
+
+TEST(Integration, StagesAreEulersAndRungeKuttasSchemes)
+{
+    // y' = -y by one step of 0.5: Euler 1/2, Runge-Kutta 1 - h + h^2/2 - h^3/6 + h^4/24. The weight 1/6 is
+    // that of float.
+    const double h = 0.5;
+    const VD start{1, 0, 0}, none{0, 0, 0};
+    EXPECT_EQ(D::stage_next(0, start, none, start * -h).x, 1 - h);
+    VD y = start, sum = none;
+    for (int stage = 1; stage <= 4; ++stage) {
+        const VD change = y * -h;
+        sum = D::stage_sum(stage, sum, change);
+        y = D::stage_next(stage, start, sum, change);
+    }
+    EXPECT_NEAR(y.x, 1 - h + h * h / 2 - h * h * h / 6 + h * h * h * h / 24, 2e-8);
+}
+
+TEST(Integration, ChangeOfVelocityIsWhatTheStepAdds)
+{
+    const VD v{1, 8, -2}, f{2, 3, 1}, gravity{0, -10, 0};
+    const VD change = D::velocity_change(v, f, 2.0, gravity, 0.5, 0.25);
+    const VD next = D::velocity_step(v, f, 2.0, gravity, 0.5, 0.25);
+    EXPECT_NEAR(length(v + change - next), 0, 1e-14);
+    EXPECT_EQ(length(D::velocity_change(v, f, 0.0, gravity, 0.5, 0.25)), 0);
 }
 
 // --- contact
@@ -534,6 +567,7 @@ TEST(Simd, GivesTheBitsOfScalarFloat)
         for (int k = 0; k < W; ++k) r.x.lanes[k] = a[k].x, r.y.lanes[k] = a[k].y, r.z.lanes[k] = a[k].z;
         return r;
     };
+    const auto pack = [](VF v) { return Vector3<P>{P(v.x), P(v.y), P(v.z)}; };
     for (int round = 0; round < 5000; ++round) {
         VF a[W], b[W], c[W], d[W];
         for (int k = 0; k < W; ++k)
@@ -541,6 +575,10 @@ TEST(Simd, GivesTheBitsOfScalarFloat)
             d[k] = random.vector(2);
         const float l0 = random.number(0.1f, 1), s = random.number(0, 1e4f), mu = random.number(0, 1);
         const auto spring = S::spring_force(lanes(a), lanes(b), lanes(c), lanes(d), P(l0), P(s), P(mu));
+        const auto bent = S::bending_force(lanes(a), lanes(b), P(s));
+        const auto change =
+            S::velocity_change(lanes(c), lanes(d), P(l0), pack({0, -9.81f, 0}), P(mu), P(0.01f));
+        const auto staged = S::stage_next(4, lanes(a), S::stage_sum(3, lanes(b), lanes(c)), lanes(d));
         const auto wind = S::wind_force(lanes(a), lanes(b), lanes(c), lanes(d), lanes(a), lanes(b), lanes(c),
                                         P(l0), P(s), P(mu));
         S::Collider box_pack{};
@@ -552,7 +590,6 @@ TEST(Simd, GivesTheBitsOfScalarFloat)
         box_float.axis_z = {0, 0, 1};
         box_float.half_size = {0.5f, 0.6f, 0.7f};
         box_float.friction = mu;
-        const auto pack = [](VF v) { return Vector3<P>{P(v.x), P(v.y), P(v.z)}; };
         box_pack.kind = 2;
         box_pack.response = 0;
         box_pack.centre = pack(a[0]);
@@ -570,6 +607,11 @@ TEST(Simd, GivesTheBitsOfScalarFloat)
             EXPECT_EQ(bits(spring.x.lanes[k]), bits(f.x));
             EXPECT_EQ(bits(spring.y.lanes[k]), bits(f.y));
             EXPECT_EQ(bits(spring.z.lanes[k]), bits(f.z));
+            EXPECT_EQ(bits(bent.y.lanes[k]), bits(F::bending_force(a[k], b[k], s).y));
+            EXPECT_EQ(bits(change.y.lanes[k]),
+                      bits(F::velocity_change(c[k], d[k], l0, {0, -9.81f, 0}, mu, 0.01f).y));
+            EXPECT_EQ(bits(staged.x.lanes[k]),
+                      bits(F::stage_next(4, a[k], F::stage_sum(3, b[k], c[k]), d[k]).x));
             const VF w = F::wind_force(a[k], b[k], c[k], d[k], a[k], b[k], c[k], l0, s, mu);
             EXPECT_EQ(bits(wind.x.lanes[k]), bits(w.x));
             EXPECT_EQ(bits(wind.z.lanes[k]), bits(w.z));

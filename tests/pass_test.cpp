@@ -23,21 +23,36 @@ struct PassCase {
     const char* name;
     std::uint32_t rows, columns;
     bool mesh, list;
+    Integrator integrator = Integrator::symplectic_euler;
+    bool graded = false;  ///< springs have numbers of their own
 };
 void PrintTo(const PassCase& c, std::ostream* out) { *out << c.name; }
 
 // 1, 2, 3, 31, 1023, ...: widths around the packs of 4, 8, 16 lanes, blocks of 256 and their trees of one to
 // three levels.
 const PassCase cases[] = {
-    {"sheet_2x2", 2, 2, false, false},       {"sheet_2x9", 2, 9, false, false},
-    {"sheet_3x1023", 3, 1023, false, false}, {"sheet_31x33", 31, 33, false, false},
-    {"sheet_17x16", 17, 16, false, false},   {"sheet_257x129", 257, 129, false, false},
-    {"sheet_9x2", 9, 2, false, false},       {"sheet_300x301", 300, 301, false, false},
-    {"list_2x2", 2, 2, false, true},         {"list_2x9", 2, 9, false, true},
-    {"list_31x33", 31, 33, false, true},     {"list_257x129", 257, 129, false, true},
-    {"mesh_2x2", 2, 2, true, true},          {"mesh_3x5", 3, 5, true, true},
-    {"mesh_31x33", 31, 33, true, true},      {"mesh_65x67", 65, 67, true, true},
+    {"sheet_2x2", 2, 2, false, false},
+    {"sheet_2x9", 2, 9, false, false},
+    {"sheet_3x1023", 3, 1023, false, false},
+    {"sheet_31x33", 31, 33, false, false},
+    {"sheet_17x16", 17, 16, false, false},
+    {"sheet_257x129", 257, 129, false, false},
+    {"sheet_9x2", 9, 2, false, false},
+    {"sheet_300x301", 300, 301, false, false},
+    {"list_2x2", 2, 2, false, true},
+    {"list_2x9", 2, 9, false, true},
+    {"list_31x33", 31, 33, false, true},
+    {"list_257x129", 257, 129, false, true},
+    {"mesh_2x2", 2, 2, true, true},
+    {"mesh_3x5", 3, 5, true, true},
+    {"mesh_31x33", 31, 33, true, true},
+    {"mesh_65x67", 65, 67, true, true},
     {"mesh_3x341", 3, 341, true, true},
+    {"graded_sheet_9x13", 9, 13, false, true, Integrator::symplectic_euler, true},
+    {"graded_mesh_17x13", 17, 13, true, true, Integrator::symplectic_euler, true},
+    {"explicit_31x33", 31, 33, false, true, Integrator::explicit_euler},
+    {"runge_kutta_31x33", 31, 33, false, true, Integrator::runge_kutta_4},
+    {"runge_kutta_mesh", 17, 13, true, true, Integrator::runge_kutta_4, true},
 };
 
 constexpr double dt = 1e-4;
@@ -48,8 +63,14 @@ Scene scene_of(const PassCase& c)
                          : test::flat_sheet(c.rows, c.columns, 1.0, 0.8);
     cloth.springs = {{1000, 0.02}, {500, 0.03}, {10, 0.004}};
     if (c.list && !c.mesh) cloth.formulation = Formulation::spring_list;
+    if (c.graded) {
+        cloth.springs.bend_model = BendModel::quadratic;
+        if (auto* sheet = std::get_if<SheetOptions>(&cloth.shape)) sheet->border = SheetBorder::half;
+    }
     cloth.pin(Attachment(std::uint32_t{1}, {{.time = 0}, {.time = 1, .position = {1, 0, 0}}}));
     Scene scene;
+    scene.integrator = c.integrator;
+    scene.time.substeps = 1;
     scene.add(cloth);
     scene.air = {.velocity = {3, 0.5, -1}, .density = 1.2, .drag = 1.1, .lift = 0.4};
     // All shapes and both responses, each touching some nodes; one of them moving.

@@ -83,6 +83,10 @@ public:
     {
         compare_number(property(key), "number", scene_format::above(0, 1));
     }
+    void material(const char* key, const Cloth& cloth)
+    {
+        choice(key, cloth.material, scene_format::material_names);
+    }
     void mesh_file(const char* key, const SurfaceMesh&) { property(key, scene_format::required); }
     void checks(const char* key, const std::vector<Check>&)
     {

@@ -25,6 +25,7 @@ struct SolverCase {
     Preconditioner preconditioner = Preconditioner::multigrid;
     std::uint32_t smoothing = 1;
     bool stiff_bend = false;
+    bool graded = false;  ///< springs have numbers of their own
 };
 void PrintTo(const SolverCase& c, std::ostream* out) { *out << c.name; }
 
@@ -43,6 +44,9 @@ const SolverCase cases[] = {
     {.name = "sheet_plain", .rows = 9, .columns = 7, .preconditioner = Preconditioner::none},
     {.name = "mesh_2x2", .rows = 2, .columns = 2, .mesh = true},
     {.name = "mesh_17x13", .rows = 17, .columns = 13, .mesh = true},
+    {.name = "graded_sheet", .rows = 9, .columns = 13, .smoothing = 2, .graded = true},
+    {.name = "graded_mesh", .rows = 9, .columns = 13, .mesh = true, .graded = true},
+    {.name = "acad_graded", .rows = 9, .columns = 11, .method = Method::acad, .graded = true},
     {.name = "acad_sheet", .rows = 9, .columns = 11, .method = Method::acad},
     {.name = "acad_mesh", .rows = 9, .columns = 11, .mesh = true, .method = Method::acad},
     {.name = "paper_sheet", .rows = 7, .columns = 9, .solver = Solver::paper},
@@ -76,6 +80,10 @@ Scene scene_of(const SolverCase& c)
     cloth.springs.structural.compliance = cloth.springs.shear.compliance = cloth.springs.bend.compliance =
         1e-4;
     if (c.stiff_bend) cloth.springs.bend.role = SpringRole::constraint;
+    if (c.graded) {
+        cloth.springs.bend_model = BendModel::quadratic;
+        if (auto* sheet = std::get_if<SheetOptions>(&cloth.shape)) sheet->border = SheetBorder::half;
+    }
     cloth.pin(std::uint32_t{0});
     scene.add(cloth);
     scene.add(Sphere{.centre = {0.1, -0.2, 0.1}, .radius = 0.1985, .friction = 0.3});

@@ -69,6 +69,13 @@ enum class Method {
     acad,         ///< springs that become constraints while they are stretched too far (the cloth paper)
     volume,       ///< springs with explicit steps, and one constraint that keeps the volume of each soft body
 };
+/// How springs are stepped over time, of the method mass_spring.
+enum class Integrator {
+    symplectic_euler,  ///< the velocity first, then the position with it: order 1, keeps the energy in bounds
+    explicit_euler,    ///< both from the state before: order 1, and wins energy in every step
+    runge_kutta_4,     ///< four looks at the forces in a step: order 4
+    implicit_euler,  ///< forces at the end of the step, by the solver newton_multigrid: order 1, loses energy
+};
 /// What enforces constraints, of the methods constraint and acad.
 enum class Solver {
     newton_multigrid,  ///< Newton's method on the step's energy; linear systems by multigrid V-cycles
@@ -102,6 +109,14 @@ struct SpringParameters {
     double compliance = 1e-6;  ///< m/N of a constraint beyond its limit, 1e-9 to 1
 };
 
+/// What resists bending.
+enum class BendModel {
+    skip_spring,  ///< the papers' springs to every second node; about the flat state they have no stiffness
+    /// B/2 (sum of the principal curvatures)^2 per area, quadratic for shapes that do not stretch; at rest
+    /// the cloth is flat. Takes the place of the stiffness of bend springs.
+    quadratic,
+};
+
 /// The three classes of the cloth paper (section 2.1). On a triangle mesh an edge is structural, and a bend
 /// spring joins the two vertices opposite an interior edge; there are no shear springs.
 struct Springs {
@@ -109,7 +124,20 @@ struct Springs {
     SpringParameters shear{500.0,
                            0.01};  ///< half the structural stiffness makes a sheet isotropic (nu = 1/3)
     SpringParameters bend{10.0, 0.001};
+    BendModel bend_model = BendModel::skip_spring;
+    double bending_stiffness = 1e-5;  ///< N m, 0 to 1e6: B of bend_model quadratic
 };
+
+/// What a cloth is made of: a name for density, stiffnesses and bending stiffness of a piece of real cloth.
+enum class Material { none, cotton, silk, denim, wool, leather, rubber };
+/// Of a material; where the figures are from is said in docs/scenes.md.
+struct MaterialProperties {
+    double density = 0;  ///< kg/m2
+    double stretch = 0;  ///< N/m, tension over strain along a thread
+    double shear = 0;    ///< N/m, of the shear modulus
+    double bending = 0;  ///< N m
+};
+const MaterialProperties& properties_of(Material material);
 
 /// How spring forces are computed; both give the same bits.
 enum class Formulation {
@@ -118,12 +146,21 @@ enum class Formulation {
     spring_list,   ///< the papers' edge-centric form: one force per spring, gathered per node without atomics
 };
 
+/// What the border of a sheet is.
+enum class SheetBorder {
+    full,  ///< nodes weigh alike, and springs along the border are as stiff as inner ones
+    /// A node weighs what the cloth around it does, and springs along the border are half as stiff: the
+    /// sheet then has the constants of the continuum at every resolution.
+    half,
+};
+
 /// A rectangular sheet of `rows` x `columns` nodes, flat and at rest, lying in the x-z plane.
 struct SheetOptions {
-    std::uint32_t rows = 2;                ///< nodes, >= 2; row 0 is the "top", at the side of negative z
-    std::uint32_t columns = 2;             ///< nodes, >= 2; column 0 is the "left", at the side of negative x
-    double width = 1.0;                    ///< m, along a row (x before rotation)
-    double height = 1.0;                   ///< m, along a column (z before rotation)
+    std::uint32_t rows = 2;     ///< nodes, >= 2; row 0 is the "top", at the side of negative z
+    std::uint32_t columns = 2;  ///< nodes, >= 2; column 0 is the "left", at the side of negative x
+    double width = 1.0;         ///< m, along a row (x before rotation)
+    double height = 1.0;        ///< m, along a column (z before rotation)
+    SheetBorder border = SheetBorder::full;
     std::optional<double> density = {};    ///< kg/m2; 0.3 when neither this nor node_mass is given
     std::optional<double> node_mass = {};  ///< kg per node, instead of density
 };
@@ -212,6 +249,9 @@ struct Cloth {
         pins.push_back(attachment);
         return *this;
     }
+    /// Sets density and springs to those of a material, with bend_model quadratic; what is set afterwards
+    /// goes before it. With the method constraint structural springs do not give more than the material does.
+    Cloth& make_of(Material given);
 
     std::string name = "cloth";
     std::variant<SheetOptions, SurfaceMesh, DiscOptions> shape;
@@ -219,11 +259,12 @@ struct Cloth {
     /// node_mass is set. The one of SheetOptions or DiscOptions is moved here by `sheet` or `disc`; in
     /// `shape` itself it must stay empty.
     std::optional<double> density;
-    std::optional<double> node_mass;  ///< kg per node, instead of density
-    double scale = 1.0;               ///< of a mesh
-    Vec3d position;                   ///< m, where the origin of the shape (the centre of a sheet) is put
-    Vec3d rotation;                   ///< degrees about x, then y, then z
-    Vec3d velocity;                   ///< m/s, of every node at the start
+    std::optional<double> node_mass;     ///< kg per node, instead of density
+    Material material = Material::none;  ///< set by `make_of`; what is stepped are density and springs
+    double scale = 1.0;                  ///< of a mesh
+    Vec3d position;                      ///< m, where the origin of the shape (the centre of a sheet) is put
+    Vec3d rotation;                      ///< degrees about x, then y, then z
+    Vec3d velocity;                      ///< m/s, of every node at the start
     Springs springs;
     Formulation formulation = Formulation::automatic;
     double damping = 0.1;      ///< 1/s; every velocity loses this fraction a second
@@ -383,7 +424,8 @@ public:
     std::string name = "scene";
     std::string description;
     Method method = Method::mass_spring;
-    Solver solver = Solver::newton_multigrid;  ///< of the methods constraint and acad
+    Integrator integrator = Integrator::symplectic_euler;  ///< of the method mass_spring
+    Solver solver = Solver::newton_multigrid;              ///< of the methods constraint and acad
     NewtonMultigridOptions newton_multigrid;
     PaperOptions paper;
     AcadOptions acad;
@@ -416,6 +458,7 @@ Scene read_scene(const std::string& file_or_name, const std::vector<std::string>
 
 /// As a scene file writes it.
 const char* name_of(Method method);
+const char* name_of(Integrator integrator);
 const char* name_of(Solver solver);
 
 /// A built-in scene: its name and what it shows.

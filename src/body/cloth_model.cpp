@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "body/bending.hpp"
 #include "body/collider_motion.hpp"
 #include "mesh/disc.hpp"
 
@@ -114,9 +115,15 @@ ClothModel::ClothModel(const Cloth& cloth, const Scene& scene)
     parameters.thickness = cloth.thickness;
 
     const bool rows = uses_solver(method) && solver == Solver::paper;  // which number springs
-    node_centric_ = is_sheet() && cloth.formulation != Formulation::spring_list && !rows;
+    const bool stages = integrator == Integrator::explicit_euler || integrator == Integrator::runge_kutta_4;
+    const auto* sheet_options = std::get_if<SheetOptions>(&cloth.shape);
+    graded = !body && (cloth.springs.bend_model == BendModel::quadratic ||
+                       (sheet_options && sheet_options->border == SheetBorder::half));
+    node_centric_ =
+        is_sheet() && cloth.formulation != Formulation::spring_list && !rows && !stages && !graded;
     if (is_sheet() && !node_centric_) list_sheet_springs();
     if (!is_sheet() && !body) list_mesh_springs();
+    if (graded) grade_springs(cloth);
     if (!node_centric_ && !body) list_neighbours();
     if (is_sheet()) {
         spring_count_ = sheet_spring_count(sheet->rows, sheet->columns);
@@ -184,6 +191,7 @@ void ClothModel::set_masses(const Cloth& cloth)
         const auto& options = std::get<SheetOptions>(cloth.shape);
         const double total = cloth.density.value_or(default_density) * options.width * options.height;
         mass.assign(count, total / static_cast<double>(count));
+        if (options.border == SheetBorder::half) share_by_area(mass, total, *sheet);
     } else {
         for (const Triangle& t : triangles_)
             for (const std::uint32_t node : t)
@@ -255,8 +263,10 @@ void ClothModel::place_attached(double time, std::span<Vec3> places) const
 
 void ClothModel::set_springs(const Cloth& cloth, const Scene& scene)
 {
-    method = scene.method;
-    solver = scene.solver;
+    method = stepped_method(scene);
+    integrator = scene.integrator;
+    const bool implicit = integrator == Integrator::implicit_euler;
+    solver = implicit ? Solver::newton_multigrid : scene.solver;
     newton = scene.newton_multigrid;
     paper = scene.paper;
     acad = scene.acad;
@@ -269,14 +279,17 @@ void ClothModel::set_springs(const Cloth& cloth, const Scene& scene)
         const SpringParameters& given = classes[k];
         SpringRole role = given.role;
         if (role == SpringRole::automatic)
-            role = method == Method::constraint && k != static_cast<std::size_t>(SpringClass::bend)
-                       ? SpringRole::constraint
-                       : SpringRole::spring;
+            role =
+                method == Method::constraint && !implicit && k != static_cast<std::size_t>(SpringClass::bend)
+                    ? SpringRole::constraint
+                    : SpringRole::spring;
+        const bool quadratic = !cloth.body && cloth.springs.bend_model == BendModel::quadratic;
+        LimitedSprings& springs_of = limited[k];
+        springs_of.exists = quadratic;  // bending is a part of what all classes do
         if (role == SpringRole::off) continue;
         parameters.stiffness[k] = given.stiffness;
         parameters.spring_damping[k] = given.damping;
-        LimitedSprings& springs_of = limited[k];
-        springs_of.exists = role == SpringRole::constraint || given.stiffness > 0 || given.damping > 0;
+        springs_of.exists |= role == SpringRole::constraint || given.stiffness > 0 || given.damping > 0;
         if (method == Method::acad) {
             const bool to_rest = acad.target == AcadTarget::rest;
             springs_of.exists = true;
@@ -292,6 +305,27 @@ void ClothModel::set_springs(const Cloth& cloth, const Scene& scene)
             springs_of.below = given.stiffness;
         }
     }
+}
+
+/// Gives springs their own numbers. A sheet is a mesh from here on: its grid says nothing about them.
+void ClothModel::grade_springs(const Cloth& cloth)
+{
+    const bool quadratic = cloth.springs.bend_model == BendModel::quadratic;
+    if (quadratic) {
+        parameters.stiffness[2] = 0;
+        limited[2] = {.exists = true};
+    }
+    const double bending = quadratic ? cloth.springs.bending_stiffness : 0;
+    if (!is_sheet()) {
+        spectrum_end = 6.2;
+        return add_bending(springs, triangles_, positions, bending);
+    }
+    if (quadratic) spectrum_end = 4.2;
+    if (std::get<SheetOptions>(cloth.shape).border == SheetBorder::half) halve_border(springs, *sheet);
+    add_bending(springs, *sheet, bending);
+    (void)triangles();
+    list_node_triangles();
+    sheet.reset();
 }
 
 void ClothModel::list_sheet_springs()
@@ -396,24 +430,35 @@ double ClothModel::stable_step() const
 {
     // Rows of M^-1 K and M^-1 C in 3 x 3 blocks have sums of norms of at most 2 sum k / m and 2 sum c / m.
     std::vector<double> stiffness(positions.size(), 0.0), damping(positions.size(), 0.0);
-    const auto add = [&](std::uint32_t i, std::uint32_t j, SpringClass spring_class) {
+    const auto add = [&](std::uint32_t i, std::uint32_t j, SpringClass spring_class, double scale,
+                         double bending) {
         const auto k = static_cast<std::size_t>(spring_class);
         for (const std::uint32_t node : {i, j}) {
-            stiffness[node] += parameters.stiffness[k];
-            damping[node] += parameters.spring_damping[k];
+            stiffness[node] += scale * parameters.stiffness[k] + bending;
+            damping[node] += scale * parameters.spring_damping[k];
         }
     };
     if (is_sheet())
         for_each_sheet_spring(*sheet, [&](std::uint32_t i, std::uint32_t j, const SheetNeighbour& n) {
-            add(i, j, n.spring_class);
+            add(i, j, n.spring_class, 1, 0);
         });
     else
-        for (const Spring& spring : springs) add(spring.i, spring.j, spring.spring_class);
+        for (const Spring& spring : springs)
+            add(spring.i, spring.j, spring.spring_class, spring.scale, std::abs(spring.bending));
 
     double omega2 = 0, gamma = parameters.damping;
     for (std::size_t i = 0; i < positions.size(); ++i) {
         omega2 = std::max(omega2, 2 * stiffness[i] * inverse_masses[i]);
         gamma = std::max(gamma, parameters.damping + 2 * damping[i] * inverse_masses[i]);
+    }
+    if (integrator ==
+        Integrator::explicit_euler)  // |1 + lambda dt| < 1 while dt < gamma / omega2, gamma >= d
+        return omega2 > 0 ? parameters.damping / omega2 : std::numeric_limits<double>::infinity();
+    if (integrator == Integrator::runge_kutta_4) {
+        // Its region has all of the left half of the disc of this radius; |lambda| <= max(omega, gamma).
+        constexpr double radius = 2.6;
+        const double fastest = std::max(std::sqrt(omega2), gamma);
+        return fastest > 0 ? radius / fastest : std::numeric_limits<double>::infinity();
     }
     // Symplectic Euler on x'' = -gamma x' - omega2 x is stable while 4 - 2 gamma dt - omega2 dt^2 > 0.
     if (omega2 > 0) return (std::sqrt(gamma * gamma + 4 * omega2) - gamma) / omega2;

@@ -25,6 +25,9 @@ struct Spring {
     std::uint32_t i = 0, j = 0;
     SpringClass spring_class = SpringClass::structural;
     double rest_length = 0;  ///< m
+    double scale = 1;        ///< multiplies stiffness and damping of its class
+    /// N/m, may be negative: of the quadratic bending energy, bending / 2 (x_j - x_i)^2, see bending.hpp
+    double bending = 0;
 };
 
 /// One of the up to 12 springs of a sheet's node.
@@ -92,6 +95,12 @@ struct AttachmentMotion {
 /// Methods that step by the constraint solver.
 constexpr bool uses_solver(Method method) { return method == Method::constraint || method == Method::acad; }
 
+/// The method whose passes a scene is stepped by: implicit Euler is that of constraints, without any.
+inline Method stepped_method(const Scene& scene)
+{
+    return scene.integrator == Integrator::implicit_euler ? Method::constraint : scene.method;
+}
+
 class ClothModel {
 public:
     ClothModel(const Cloth& cloth, const Scene& scene);
@@ -140,7 +149,8 @@ public:
     /// ACAD whose step is longer than explicit springs can stand: they are stepped with their limits,
     /// implicitly.
     bool acad_implicit = false;
-    Method method = Method::mass_spring;
+    Method method = Method::mass_spring;  ///< see stepped_method
+    Integrator integrator = Integrator::symplectic_euler;
     Solver solver = Solver::newton_multigrid;
     NewtonMultigridOptions newton;
     PaperOptions paper;
@@ -156,7 +166,12 @@ public:
     // Only when not node-centric:
     std::vector<Spring> springs;   ///< sorted by (i, j)
     Ragged<Neighbour> neighbours;  ///< per node, sorted by the other node; of a body see BodyModel::links
-    bool spring_list = false;      ///< of a body: forces by the list of springs, with the method mass_spring
+    /// Some have a scale, or bending, of their own. A sheet with such springs is stepped as a mesh.
+    bool graded = false;
+    /// At most what the largest eigenvalue of the solver's operator is against its own diagonal blocks: a
+    /// term that couples n nodes has none beyond n, and a spring couples two.
+    double spectrum_end = 2.5;
+    bool spring_list = false;  ///< of a body: forces by the list of springs, with the method mass_spring
     // Only for a mesh:
     Ragged<std::uint32_t> node_triangles;  ///< per node the triangles around it, ascending
 
@@ -189,6 +204,7 @@ private:
     void set_springs(const Cloth& cloth, const Scene& scene);
     void list_sheet_springs();
     void list_mesh_springs();
+    void grade_springs(const Cloth& cloth);
     void list_neighbours();
 
     bool node_centric_ = false;

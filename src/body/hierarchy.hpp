@@ -51,12 +51,13 @@ public:
     /// Where in a plane the node at (row, column) is: as NodeLayout.
     static std::int32_t offset(const SolverLevel& level, std::int32_t row, std::int32_t column);
 
-    std::vector<SolverLevel> levels;     ///< finest first
-    std::vector<std::int32_t> topology;  ///< of a mesh
-    std::vector<double> rest_lengths;    ///< m, of the edges of a mesh
-    std::size_t number_count = 0;        ///< of the arena
-    std::int32_t bottom_base = 0;        ///< where the dense operator of the last level lies
-    ConstraintRows constraints;          ///< of the solver paper, which has no levels but the cloth
+    std::vector<SolverLevel> levels;      ///< finest first
+    std::vector<std::int32_t> topology;   ///< of a mesh
+    std::vector<double> rest_lengths;     ///< m, of the edges of a mesh
+    std::vector<double> scales, bending;  ///< of graded springs, as Spring has them
+    std::size_t number_count = 0;         ///< of the arena
+    std::int32_t bottom_base = 0;         ///< where the dense operator of the last level lies
+    ConstraintRows constraints;           ///< of the solver paper, which has no levels but the cloth
 
 private:
     void build_sheet(const ClothModel& cloth);

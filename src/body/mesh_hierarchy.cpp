@@ -379,6 +379,8 @@ void Hierarchy::build_mesh(const ClothModel& cloth)
     level->held_start = add_sides(*level, held);
     rest_lengths.reserve(list.springs.size());
     for (const Spring& s : list.springs) rest_lengths.push_back(static_cast<float>(s.rest_length));
+    if (cloth.graded)
+        for (const Spring& s : list.springs) scales.push_back(s.scale), bending.push_back(s.bending);
 
     do {
         const CoarseMesh coarse = coarser(graph);

@@ -10,13 +10,30 @@ KERNEL int mesh_node(int o)
     return o - level_offset(0, 0);
 }
 
+// What multiplies the stiffness of a spring: its own share, and of ACAD whether it is marked.
+KERNEL real mesh_scale(int e)
+{
+    real scale = is_graded() ? edge_load(edge_scale, e) : real(1.0f);
+    return is_acad() ? scale * edge_load(edge_mark, e) : scale;
+}
+
+// A spring's part of the quadratic bending energy (body/bending.hpp): as a spring of no length at rest.
+KERNEL SpringShare bent(SpringShare spring, vec3 d, real weight)
+{
+    spring.force = spring.force + d * weight;
+    spring.block = plus(spring.block, symmetric_diagonal(weight));
+    spring.energy = spring.energy + 0.5f * weight * dot3(d, d);
+    return spring;
+}
+
 KERNEL void mesh_springs(int e)
 {
     int ends = level.edge_ends + 3 * e;
     int i = topology(ends), j = topology(ends + 1);
-    SpringShare spring = spring_share(class_curve(topology(ends + 2)), load3(plane_q, j) - load3(plane_q, i),
-                                      load3(plane_t, j) - load3(plane_t, i), edge_load(edge_rest, e),
-                                      is_acad() ? edge_load(edge_mark, e) : real(1.0f));
+    vec3 start = load3(plane_q, j) - load3(plane_q, i), moved = load3(plane_t, j) - load3(plane_t, i);
+    SpringShare spring =
+        spring_share(class_curve(topology(ends + 2)), start, moved, edge_load(edge_rest, e), mesh_scale(e));
+    if (is_graded() && !is_acad()) spring = bent(spring, start + moved, edge_load(edge_bending, e));
     edge_store3(edge_force, e, spring.force);
     edge_store6(edge_block, e, spring.block);
     edge_store(edge_taut, e, choose(magnitude(spring.multiplier) > 0.0f, real(1.0f), real(0.0f)));
@@ -194,8 +211,7 @@ KERNEL void mesh_multipliers(int o)
             real length2 = dot3(d, d), rest = edge_load(edge_rest, e);
             LimitCurve curve = class_curve(topology(level.edge_ends + 3 * e + 2));
             SpringState state = spring_state(curve, length2, inverse_sqrt(length2), rest);
-            real mark = is_acad() ? edge_load(edge_mark, e) : real(1.0f);
-            most = largest(magnitude(state.multiplier * mark), most);
+            most = largest(magnitude(state.multiplier * mesh_scale(e)), most);
         }
     }
     set_multiplier(o, choose(scalar(scalar_idle) > 0.0f, real(0.0f), most));

@@ -39,7 +39,9 @@ const int edge_force = 6;      // N, on the first node
 const int edge_rest = 9;       // m
 const int edge_taut = 10;      // 1 for an active constraint
 const int edge_mark = 11;      // of ACAD: 1 where the spring is a limit in this step
-const int edge_planes = 12;
+const int edge_scale = 12;     // of graded springs: multiplies stiffness, and the weight of bending, N/m
+const int edge_bending = 13;
+const int edge_planes = 14;
 
 // Numbers of a cloth's solve that are no nodes': the control of the iterations, and their counters.
 const int scalar_newton_done = 0;   // 1 when this step's Newton iteration has ended

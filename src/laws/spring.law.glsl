@@ -12,6 +12,19 @@ LAW vec3 spring_force(vec3 xi, vec3 xj, vec3 vi, vec3 vj, real rest_length, real
     return n * (stiffness * (length2 * inverse_length - rest_length) + damping * dot3(vj - vi, n));
 }
 
+// The quadratic bending energy as springs of no length at rest (body/bending.hpp), N:  f_i = w (x_j - x_i)
+LAW vec3 bending_force(vec3 xi, vec3 xj, real weight)
+{
+    return (xj - xi) * weight;
+}
+
+// w (x_j - x_i)^2 / 2, J; a pair's part of an energy whose sum is never negative, and so it may be
+LAW real bending_energy(vec3 xi, vec3 xj, real weight)
+{
+    vec3 d = xj - xi;
+    return 0.5f * weight * dot3(d, d);
+}
+
 // (l - l0) / l0
 LAW real spring_stretch(vec3 xi, vec3 xj, real rest_length)
 {

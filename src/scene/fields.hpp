@@ -10,7 +10,7 @@
 //   list(key, things)                     an array of such objects
 //   one_of(variant, keys, with)           exactly one of the keys, which names the alternative
 //   and what a file says in another way than a Scene: format_version, step_length, mesh_file, body_shape,
-//   cloths, bodies, checks
+//   material, cloths, bodies, checks
 #pragma once
 
 #include <array>
@@ -30,6 +30,11 @@ inline constexpr Presence required = Presence::required;
 
 // Names in the order of their enumerations.
 inline constexpr std::array method_names{"mass_spring", "constraint", "acad", "volume"};
+inline constexpr std::array integrator_names{"symplectic_euler", "explicit_euler", "runge_kutta_4",
+                                             "implicit_euler"};
+inline constexpr std::array bend_model_names{"skip_spring", "quadratic"};
+inline constexpr std::array material_names{"none", "cotton", "silk", "denim", "wool", "leather", "rubber"};
+inline constexpr std::array border_names{"full", "half"};
 inline constexpr std::array solver_names{"newton_multigrid", "paper"};
 inline constexpr std::array role_names{"automatic", "spring", "constraint", "off"};
 inline constexpr std::array preconditioner_names{"multigrid", "jacobi", "none"};
@@ -132,6 +137,8 @@ void fields(auto& at, Is<Springs> auto& springs)
     at.object("structural", springs.structural);
     at.object("shear", springs.shear);
     at.object("bend", springs.bend);
+    at.choice("bend_model", springs.bend_model, bend_model_names);
+    at.number("bending_stiffness", springs.bending_stiffness, {0, 1e6}, "N m");
 }
 
 void fields(auto& at, Is<SheetOptions> auto& sheet)
@@ -140,6 +147,7 @@ void fields(auto& at, Is<SheetOptions> auto& sheet)
     at.number("columns", sheet.columns, {2, longest_side}, "nodes", required);
     at.number("width", sheet.width, extent, "m");
     at.number("height", sheet.height, extent, "m");
+    at.choice("border", sheet.border, border_names);
 }
 
 void fields(auto& at, Is<SurfaceMesh> auto& mesh) { at.mesh_file("file", mesh); }
@@ -187,6 +195,7 @@ void fields(auto& at, Is<Cloth> auto& cloth)
                 inside.number("scale", cloth.scale, extent, "");
         });
     });
+    at.material("material", cloth);  // before what is given beside it, which has the last word
     at.number("density", cloth.density, above(0, 1e6), "kg/m2");
     at.number("node_mass", cloth.node_mass, above(0, 1e6), "kg");
     at.vector("position", cloth.position, coordinate, "m");
@@ -382,6 +391,7 @@ void fields(auto& at, Is<Scene> auto& scene)
     at.name("name", scene.name);
     at.text("description", scene.description);
     at.choice("method", scene.method, method_names);
+    at.choice("integrator", scene.integrator, integrator_names);
     at.choice("solver", scene.solver, solver_names);
     at.object("newton_multigrid", scene.newton_multigrid);
     at.object("paper", scene.paper);

@@ -178,6 +178,14 @@ void ObjectReader::vertex_weights(const char* key, const SurfaceMesh& mesh, std:
     }
 }
 
+void ObjectReader::material(const char* key, Cloth& cloth)
+{
+    choice(key, cloth.material, material_names);
+    if (cloth.material == Material::none) return;
+    cloth.make_of(cloth.material);
+    if (object_->contains("node_mass")) cloth.density.reset();
+}
+
 void ObjectReader::cloths(const char* key, Scene& scene)
 {
     each(key, [&](ObjectReader& inside) {

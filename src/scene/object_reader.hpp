@@ -77,6 +77,7 @@ public:
     void mesh_file(const char* key, SurfaceMesh& mesh);
     void vertex_weights(const char* key, const SurfaceMesh& mesh, std::vector<float>& weights);
     void body_shape(Names keys, Cloth& cloth);
+    void material(const char* key, Cloth& cloth);
     void cloths(const char* key, Scene& scene);
     void bodies(const char* key, Scene& scene);
     void checks(const char* key, std::vector<Check>& checks);

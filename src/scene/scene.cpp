@@ -8,6 +8,10 @@
 namespace pliant {
 
 const char* name_of(Method method) { return scene_format::method_names.at(static_cast<std::size_t>(method)); }
+const char* name_of(Integrator integrator)
+{
+    return scene_format::integrator_names.at(static_cast<std::size_t>(integrator));
+}
 const char* name_of(Solver solver) { return scene_format::solver_names.at(static_cast<std::size_t>(solver)); }
 
 Cloth Cloth::sheet(const SheetOptions& options)
@@ -66,6 +70,7 @@ Scene::Scene(const Scene& other)
     : name(other.name),
       description(other.description),
       method(other.method),
+      integrator(other.integrator),
       solver(other.solver),
       newton_multigrid(other.newton_multigrid),
       paper(other.paper),

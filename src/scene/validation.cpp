@@ -109,6 +109,7 @@ public:
     }
 
     void format_version(const char*) const {}
+    void material(const char* key, const Cloth& cloth) const { choice(key, cloth.material, material_names); }
     void step_length(const char*, const TimeOptions&) const {}
     void mesh_file(const char*, const SurfaceMesh& mesh) const
     {
@@ -302,8 +303,53 @@ private:
                     "is constraint, but " + reason + ": use method constraint");
     }
 
+    /// What has numbers of its own for each spring, which not every form of a step can hear.
+    void graded_springs(const Cloth& cloth, const Scene& scene, const std::string& path) const
+    {
+        const auto* sheet = std::get_if<SheetOptions>(&cloth.shape);
+        const bool quadratic = cloth.springs.bend_model == BendModel::quadratic;
+        const bool half = sheet && sheet->border == SheetBorder::half;
+        const std::string key = path + (quadratic ? ".springs.bend_model" : ".sheet.border");
+        const std::string value = quadratic ? "is quadratic" : "is half";
+        if (!quadratic && !half) return;
+        require(cloth.formulation != Formulation::node_centric, key,
+                value + ", which needs springs with numbers of their own: use formulation automatic");
+        require(!uses_paper_solver(scene), key,
+                value + ", which the solver paper does not know: use newton_multigrid");
+        require(!quadratic || cloth.springs.bend.role != SpringRole::constraint, path + ".springs.bend.role",
+                "is constraint, but with bend_model quadratic there are no bend springs: use automatic");
+    }
+    static bool uses_paper_solver(const Scene& scene)
+    {
+        return scene.solver == Solver::paper &&
+               (scene.method == Method::constraint || scene.method == Method::acad);
+    }
+
+    void integrator(const Scene& scene) const
+    {
+        if (scene.integrator == Integrator::symplectic_euler) return;
+        const std::string value = std::string("is ") + name_of(scene.integrator);
+        require(scene.method == Method::mass_spring, "integrator",
+                value + ", but the method " + std::string(name_of(scene.method)) +
+                    " has a way of its own to step: use method mass_spring");
+        for (std::size_t i = 0; i < scene.cloth_count(); ++i) {
+            require(!scene.cloth(i).is_body(), "integrator",
+                    value + ", but soft bodies are stepped by symplectic_euler alone");
+            require(scene.integrator == Integrator::implicit_euler ||
+                        scene.cloth(i).formulation != Formulation::node_centric,
+                    element_path("cloths", i) + ".formulation",
+                    "is node_centric, but the integrator " + std::string(name_of(scene.integrator)) +
+                        " needs spring_list or automatic");
+        }
+        require(
+            scene.integrator != Integrator::explicit_euler || scene.time.substeps > 0, "time.substeps",
+            "is 0, but the integrator explicit_euler has no safe step that could be chosen: give a number "
+            "of at least 1");
+    }
+
     void relations(const Scene& scene) const
     {
+        integrator(scene);
         require(scene.cloth_count() > 0, "cloths",
                 "is empty, but a scene needs at least one cloth, or one of bodies");
         std::uint64_t total = 0;
@@ -312,6 +358,7 @@ private:
             const bool body = scene.cloth(i).is_body();
             const std::string path = element_path(body ? "bodies" : "cloths", body ? bodies++ : cloths++);
             if (!body) roles(scene.cloth(i).springs, scene.method, path);
+            if (!body) graded_springs(scene.cloth(i), scene, path);
             total += node_count(scene.cloth(i));
             require(total <= max_nodes, path,
                     "brings the scene to " + std::to_string(total) + " nodes, but there may be at most " +

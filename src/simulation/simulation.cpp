@@ -155,7 +155,8 @@ public:
             const double step = 1 / (scene.time.frame_rate * scene.time.substeps);
             return {static_cast<std::uint64_t>(std::max(1ll, std::llround(duration / step))), step};
         }
-        if (scene.method == Method::constraint) {  // implicit: a step is as long as a frame unless asked for
+        if (stepped_method(scene) ==
+            Method::constraint) {  // implicit: a step is as long as a frame unless asked for
             const double frames = std::max(1.0, std::round(duration * scene.time.frame_rate));
             return {static_cast<std::uint64_t>(frames), duration / frames};
         }
@@ -168,7 +169,8 @@ public:
     {
         constexpr double most = 100'000;  // as many as a scene may ask for by itself
         const double frame = 1 / scene.time.frame_rate;
-        if (scene.method != Method::constraint && scene.time.substeps == 0 && frame / stable_step > most)
+        if (stepped_method(scene) != Method::constraint && scene.time.substeps == 0 &&
+            frame / stable_step > most)
             throw Error(ErrorKind::bad_input,
                         "time.substeps is 0 (automatic), and a stable step of " + seconds(stable_step) +
                             " would take more than 100000 substeps per frame; use softer springs, "
@@ -207,7 +209,7 @@ public:
         parity = program.parity_after;
         report.simulated_seconds = on_frame(report.simulated_seconds + steps * step, steps * step);
         report.steps += steps;
-        if (uses_solver(scene.method)) count_solves();
+        if (uses_solver(stepped_method(scene))) count_solves();
     }
 
     /// Adds the solver's counters of the program that has just run.
@@ -511,7 +513,7 @@ public:
         ReadBack::Values<float>& target = read_backs.at(cloth).multipliers;
         if (target.frame == state_number) return target.values;
         const std::uint32_t model = places[cloth].model;
-        if (!uses_solver(scene.method)) {
+        if (!uses_solver(stepped_method(scene))) {
             target.values.assign(places[cloth].node_count, 0.0f);
         } else {
             Program program{next_program_id++, {}, parity};
@@ -803,7 +805,7 @@ std::string Simulation::stability_warning() const
 {
     const double step = step_length(), stable = stable_step();
     const bool implicit = uses_solver(scene().method) && scene().solver == Solver::newton_multigrid;
-    if (step <= stable || implicit || scene().method == Method::constraint) return {};
+    if (step <= stable || implicit || stepped_method(scene()) == Method::constraint) return {};
     const double frame = 1 / scene().time.frame_rate;
     if (scene().method == Method::acad)
         return "the step of " + seconds(step) + " exceeds the largest safe one of " + seconds(stable) +

@@ -3,10 +3,30 @@
 #include "solve/volume.hpp"
 
 namespace pliant {
+namespace {
+
+/// Explicit Euler and Runge-Kutta: forces of the state that a stage begins with, then the stage. From the
+/// second on that state is the next one, so that its forces are those of the other parity.
+void append_stages(const ClothModel& cloth, std::uint32_t index, std::uint32_t step, std::uint32_t parity,
+                   std::vector<Call>& calls)
+{
+    const bool euler = cloth.integrator == Integrator::explicit_euler;
+    for (std::uint32_t stage = euler ? 0 : 1; stage <= (euler ? 0u : 4u); ++stage) {
+        const std::uint32_t state = stage <= 1 ? parity : parity ^ 1;
+        append_wind(cloth, index, step, state, calls);
+        calls.push_back({Pass::spring_force, index, state, step});
+        calls.push_back({Pass::stage_step, index, parity, step, 0, stage});
+    }
+    append_attachments(cloth, index, step, parity, calls);
+}
+
+}  // namespace
 
 void append_mass_spring_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step,
                              std::uint32_t parity, std::vector<Call>& calls)
 {
+    if (cloth.integrator == Integrator::explicit_euler || cloth.integrator == Integrator::runge_kutta_4)
+        return append_stages(cloth, index, step, parity, calls);
     append_wind(cloth, index, step, parity, calls);
     if (!cloth.node_centric()) calls.push_back({Pass::spring_force, index, parity, step});
     calls.push_back({cloth.node_centric() ? Pass::sheet_step : Pass::list_step, index, parity, step});

@@ -28,15 +28,16 @@ enum class Resource : std::uint32_t {
     measures,        ///< 8 floats per block of 256, levels of a tree one after the other
     normal,          ///< 3 floats per node
     strain,          ///< 1 float per node
-    multiplier,      ///< 1 float per node, N: the largest force of a constraint at it
-    gradient,        ///< 3 floats per node of a body, m2: 6 dV/dx
-    direction,       ///< 3 floats per node of a body: how the volume constraint moves it
-    blocked,         ///< 4 floats per node of a body: the normal of what held it, and how many did
-    rate_sums,       ///< 8 floats per block of nodes, see VolumeRate of laws/volume.law.glsl
-    cubic_sums,      ///< 8 floats per block of fans, see VolumeCubic
-    bodies,          ///< 4 floats per body: its centre, m, and 6 V, m3
-    volumes,         ///< 1 float per body, m3: 6 V as it was measured last
-    solver,          ///< the arena of numbers of the constraint solver, and its scalars
+    slopes,      ///< 6 floats per node: changes of position and velocity, summed over the stages of a step
+    multiplier,  ///< 1 float per node, N: the largest force of a constraint at it
+    gradient,    ///< 3 floats per node of a body, m2: 6 dV/dx
+    direction,   ///< 3 floats per node of a body: how the volume constraint moves it
+    blocked,     ///< 4 floats per node of a body: the normal of what held it, and how many did
+    rate_sums,   ///< 8 floats per block of nodes, see VolumeRate of laws/volume.law.glsl
+    cubic_sums,  ///< 8 floats per block of fans, see VolumeCubic
+    bodies,      ///< 4 floats per body: its centre, m, and 6 V, m3
+    volumes,     ///< 1 float per body, m3: 6 V as it was measured last
+    solver,      ///< the arena of numbers of the constraint solver, and its scalars
 };
 
 enum class PassSize { node, spring, block, level, cell, single, row, scan, edge, finer, fan, body };
@@ -66,7 +67,7 @@ struct Call {
     std::uint32_t index = 0;   ///< the step of the frame (for its colliders); of measure_merge, the level
     // Of the constraint solver's passes:
     std::uint32_t level = 0;   ///< of the hierarchy, 0 being the cloth
-    std::uint32_t detail = 0;  ///< see `detail_of`
+    std::uint32_t detail = 0;  ///< see `detail_of`; of stage_step, the stage (laws/integration.law.glsl)
     Guard guard = Guard::none;
     std::uint32_t guarded_after =
         0;  ///< calls right after this one that are skipped when it is, see append_frame

@@ -28,7 +28,7 @@ std::size_t round_up(std::size_t n, std::size_t unit) { return (n + unit - 1) / 
 /// The springs of a cloth as the kernel wants them.
 struct SpringArrays {
     std::vector<std::uint32_t> first, second;
-    std::vector<float> rest_length, stiffness, damping;
+    std::vector<float> rest_length, stiffness, damping, bending;
 
     SpringArrays(const ClothModel& model, const NodeLayout& layout)
     {
@@ -37,14 +37,16 @@ struct SpringArrays {
             first.push_back(static_cast<std::uint32_t>(layout.offset(spring.i)));
             second.push_back(static_cast<std::uint32_t>(layout.offset(spring.j)));
             rest_length.push_back(static_cast<float>(spring.rest_length));
-            stiffness.push_back(static_cast<float>(model.parameters.stiffness[k]));
-            damping.push_back(static_cast<float>(model.parameters.spring_damping[k]));
+            const auto scale = static_cast<float>(spring.scale);
+            stiffness.push_back(static_cast<float>(model.parameters.stiffness[k]) * scale);
+            damping.push_back(static_cast<float>(model.parameters.spring_damping[k]) * scale);
+            bending.push_back(static_cast<float>(spring.bending));
         }
         const std::size_t size = round_up(first.size(), spring_pack);
         const auto somewhere = static_cast<std::uint32_t>(layout.offset(0));
         first.resize(size, somewhere);
         second.resize(size, somewhere);
-        for (auto* numbers : {&rest_length, &stiffness, &damping}) numbers->resize(size, 0.0f);
+        for (auto* numbers : {&rest_length, &stiffness, &damping, &bending}) numbers->resize(size, 0.0f);
     }
 };
 
@@ -169,11 +171,12 @@ private:
     {
         PlainCloth<float>& plain = cloth->plain;
         const SpringArrays& list = cloth->springs;
-        kernels->spring_forces({pointers(std::as_const(plain.position[call->parity])),
-                                pointers(std::as_const(plain.velocity[call->parity])),
-                                pointers(plain.spring_force), list.first.data(), list.second.data(),
-                                list.rest_length.data(), list.stiffness.data(), list.damping.data()},
-                               begin, end);
+        kernels->spring_forces(
+            {pointers(std::as_const(plain.position[call->parity])),
+             pointers(std::as_const(plain.velocity[call->parity])), pointers(plain.spring_force),
+             list.first.data(), list.second.data(), list.rest_length.data(), list.stiffness.data(),
+             list.damping.data(), list.bending.data()},
+            begin, end);
     }
 };
 

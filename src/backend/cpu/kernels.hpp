@@ -67,7 +67,7 @@ struct SpringArguments {
     ConstVectors position, velocity;
     Vectors force;
     const std::uint32_t *first, *second;
-    const float *rest_length, *stiffness, *damping;
+    const float *rest_length, *stiffness, *damping, *bending;
 };
 
 /// Rows of 16 lanes: the k-th entry of each of 16 neighbouring nodes or fans. Slice s has the rows from

@@ -103,12 +103,14 @@ void spring_forces(const SpringArguments& a, std::size_t first, std::size_t end)
         return Vector{Number::gather(from.x, index), Number::gather(from.y, index),
                       Number::gather(from.z, index)};
     };
-    for (std::size_t s = first; s < end; s += width)
+    for (std::size_t s = first; s < end; s += width) {
+        const Vector xi = gather(a.position, a.first + s), xj = gather(a.position, a.second + s);
+        const Vector force = L::spring_force(
+            xi, xj, gather(a.velocity, a.first + s), gather(a.velocity, a.second + s),
+            Number::load(a.rest_length + s), Number::load(a.stiffness + s), Number::load(a.damping + s));
         store(a.force, static_cast<std::ptrdiff_t>(s),
-              L::spring_force(gather(a.position, a.first + s), gather(a.position, a.second + s),
-                              gather(a.velocity, a.first + s), gather(a.velocity, a.second + s),
-                              Number::load(a.rest_length + s), Number::load(a.stiffness + s),
-                              Number::load(a.damping + s)));
+              force + L::bending_force(xi, xj, Number::load(a.bending + s)));
+    }
 }
 
 #include "backend/cpu/sheet_kernels.inl"

@@ -56,6 +56,8 @@ PlainCloth<T>::PlainCloth(const ClothModel& cloth)
 {
     for (auto* planes : {&position[0], &position[1], &velocity[0], &velocity[1]})
         *planes = Planes<T>(layout.size);
+    if (model.integrator == Integrator::runge_kutta_4)
+        position_slope = velocity_slope = Planes<T>(layout.size);
     measures.assign(tree.value_count, L::measure_of_nothing());
     write(model.positions, model.velocities);
     for (std::size_t i = 0; i < model.node_count(); ++i) take_mass(i);
@@ -107,6 +109,7 @@ void PlainCloth<T>::run(const Call& call, const StepConstants<T>& constants,
         case Pass::grab: return grab(call, constants);
         case Pass::spring_force: return spring_forces(call, constants, begin, end);
         case Pass::list_step: return list_step(call, constants, colliders, begin, end);
+        case Pass::stage_step: return stage_step(call, constants, colliders, begin, end);
         case Pass::sheet_measure:
         case Pass::list_measure: return measure_blocks(call, constants, colliders, begin, end);
         case Pass::measure_merge: return merge_blocks(call, begin, end);
@@ -232,9 +235,11 @@ void PlainCloth<T>::spring_forces(const Call& call, const StepConstants<T>& c, s
         const Spring& spring = model.springs[s];
         const std::size_t i = layout.offset(spring.i), j = layout.offset(spring.j);
         const auto k = static_cast<std::size_t>(spring.spring_class);
-        spring_force.set(
-            s, L::spring_force(x.get(i), x.get(j), v.get(i), v.get(j), static_cast<T>(spring.rest_length),
-                               c.stiffness[k], c.damping[k]));
+        const T scale = static_cast<T>(spring.scale);
+        const Vector force =
+            L::spring_force(x.get(i), x.get(j), v.get(i), v.get(j), static_cast<T>(spring.rest_length),
+                            c.stiffness[k] * scale, c.damping[k] * scale);
+        spring_force.set(s, force + L::bending_force(x.get(i), x.get(j), static_cast<T>(spring.bending)));
     }
 }
 
@@ -249,6 +254,46 @@ void PlainCloth<T>::list_step(const Call& call, const StepConstants<T>& c,
             force = place.node < neighbour.node ? force + f : force - f;
         }
         finish_step(call, c, colliders, place, force + external_force.get(place.offset));
+    });
+}
+
+template <class T>
+void PlainCloth<T>::stage_step(const Call& call, const StepConstants<T>& c,
+                               std::span<const Collider> colliders, std::size_t begin, std::size_t end)
+{
+    using Motion = typename L::Motion;
+    const auto stage = static_cast<int>(call.detail);
+    const std::uint32_t next = 1 - call.parity, state = stage <= 1 ? call.parity : next;
+    const bool is_last = stage == 0 || stage == 4;
+    const Vector zero{T(0), T(0), T(0)};
+    for_each_node(begin, end, [&](const Place& place) {
+        Vector force = zero;
+        for (const Neighbour& neighbour : model.neighbours.row(place.node)) {
+            const Vector f = spring_force.get(neighbour.spring);
+            force = place.node < neighbour.node ? force + f : force - f;
+        }
+        force = force + external_force.get(place.offset);
+        const std::size_t o = place.offset;
+        const T w = inverse_mass[o];
+        const Vector v = velocity[state].get(o);
+        const Motion start = {position[call.parity].get(o), velocity[call.parity].get(o)};
+        const Vector moved = w > T(0) ? v * c.dt : zero;
+        const Vector change = L::velocity_change(v, force, w, c.gravity, c.decay, c.dt);
+        const bool sums = stage > 1;
+        const Vector x_sum = L::stage_sum(stage, sums ? position_slope.get(o) : zero, moved);
+        const Vector v_sum = L::stage_sum(stage, sums ? velocity_slope.get(o) : zero, change);
+        if (!is_last) {
+            position_slope.set(o, x_sum);
+            velocity_slope.set(o, v_sum);
+        }
+        Motion after = {L::stage_next(stage, start.position, x_sum, moved),
+                      L::settled_velocity(L::stage_next(stage, start.velocity, v_sum, change))};
+        if (is_last && !(w > T(0))) after.velocity = zero;
+        if (is_last)
+            for (const Collider& collider : colliders)
+                after = L::contact_step(start, after, collider, c.thickness, w, c.dt);
+        position[next].set(o, after.position);
+        velocity[next].set(o, after.velocity);
     });
 }
 
@@ -365,21 +410,24 @@ typename PlainCloth<T>::Measure PlainCloth<T>::measured_springs(const Call& call
 {
     const Planes<T>& x = position[call.parity];
     Measure m = L::measure_of_nothing();
-    const auto add = [&](std::size_t other, T rest_length, SpringClass spring_class) {
+    const auto add = [&](std::size_t other, T rest_length, SpringClass spring_class, T scale) {
         m = L::measure_spring(m, x.get(place.offset), x.get(other), rest_length,
-                              c.stiffness[static_cast<std::size_t>(spring_class)],
+                              c.stiffness[static_cast<std::size_t>(spring_class)] * scale,
                               spring_class != SpringClass::bend);
     };
     if (model.node_centric()) {
         for_each_sheet_neighbour(place, std::size(sheet_neighbours) / 2,
                                  [&](const SheetNeighbour& neighbour, std::size_t other) {
-                                     add(other, c.rest_lengths[neighbour.rest], neighbour.spring_class);
+                                     add(other, c.rest_lengths[neighbour.rest], neighbour.spring_class, T(1));
                                  });
     } else {
         for (const Neighbour& neighbour : model.neighbours.row(place.node)) {
             if (neighbour.node < place.node) continue;
             const Spring& spring = model.springs[neighbour.spring];
-            add(layout.offset(neighbour.node), static_cast<T>(spring.rest_length), spring.spring_class);
+            const std::size_t other = layout.offset(neighbour.node);
+            add(other, static_cast<T>(spring.rest_length), spring.spring_class, static_cast<T>(spring.scale));
+            m.elastic_energy = m.elastic_energy + L::bending_energy(x.get(place.offset), x.get(other),
+                                                                    static_cast<T>(spring.bending));
         }
     }
     return m;
@@ -465,7 +513,8 @@ void PlainCloth<T>::read(Resource resource, std::uint32_t parity, std::vector<fl
         case Resource::multiplier:
             for (std::size_t i = 0; i < nodes && !multiplier.empty(); ++i) push(multiplier[layout.offset(i)]);
             return;
-        case Resource::solver: return;  // nothing per node
+        case Resource::slopes:
+        case Resource::solver: return;  // nothing that is read
         default: return body.read(resource, layout, values);
     }
 }

@@ -83,8 +83,9 @@ public:
     const ClothModel& model;
     NodeLayout layout;
     Planes<T> position[2], velocity[2];
-    Planes<T> external_force;  ///< zero, and never written, without air
-    Planes<T> spring_force;    ///< per spring
+    Planes<T> external_force;                  ///< zero, and never written, without air
+    Planes<T> spring_force;                    ///< per spring
+    Planes<T> position_slope, velocity_slope;  ///< of the integrators with stages
     Planes<T> normal;
     AlignedArray<T> inverse_mass, strain, multiplier;  ///< multiplier: of the constraint methods
     std::vector<Measure> measures;
@@ -107,6 +108,8 @@ private:
     void attach(const Call&, const StepConstants<T>&, std::size_t, std::size_t);
     void grab(const Call&, const StepConstants<T>&);
     void list_step(const Call&, const StepConstants<T>&, std::span<const Collider>, std::size_t, std::size_t);
+    void stage_step(const Call&, const StepConstants<T>&, std::span<const Collider>, std::size_t,
+                    std::size_t);
     void spring_forces(const Call&, const StepConstants<T>&, std::size_t, std::size_t);
     void sheet_wind(const Call&, const StepConstants<T>&, std::size_t, std::size_t);
     void mesh_wind(const Call&, const StepConstants<T>&, std::size_t, std::size_t);

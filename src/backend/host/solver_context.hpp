@@ -22,6 +22,7 @@ struct SolverConstants {
     Curve curves[3]{};  ///< by class
     bool has[3]{};      ///< classes that are not off
     bool has_damping = false;
+    bool is_graded = false;    ///< springs of a mesh have numbers of their own
     bool exact_bend = false;   ///< bend springs are stiff: the operator has them as they are, not folded
     Number rest_lengths[5]{};  ///< m, of a sheet
     Number contact_stiffness{}, slip{};

@@ -143,6 +143,7 @@ struct SolverKernels {
         return spread(constants.rest_lengths[rest[k]]);
     }
     bool has_damping() const { return constants.has_damping; }
+    bool is_graded() const { return constants.is_graded; }
     bool has_bend() const { return constants.has[2]; }
     bool exact_bend() const { return is_cloth_ && constants.exact_bend && constants.has[2]; }
     real contact_stiffness() const { return spread(constants.contact_stiffness); }

@@ -30,6 +30,7 @@ SolverConstants<T> make_solver_constants(const ClothModel& model, double step_le
                        number(springs.compressed), number(step_length > 0 ? damping / step_length : 0)};
     }
     c.exact_bend = model.bends_by_constraints();
+    c.is_graded = model.graded;
     if (model.method == Method::acad && !model.acad_implicit) {
         const AcadOptions& acad = model.acad;
         const bool to_rest = acad.target == AcadTarget::rest;
@@ -59,7 +60,7 @@ SolverConstants<T> make_solver_constants(const ClothModel& model, double step_le
     c.newton_tolerance = number(newton.newton_tolerance);
     // Chebyshev's points on the upper part of the spectrum of D^-1 A, which the smoother has to take care of:
     // the higher its degree, the larger the part that it can. Measured by V-cycles (docs/performance.md).
-    constexpr double greatest = 2.5;
+    const double greatest = model.spectrum_end;
     constexpr std::uint32_t high_degree = 5;
     const double least = greatest / (newton.smoothing < high_degree ? 8 : 32);
     for (std::uint32_t k = 0; k < newton.smoothing; ++k)
@@ -78,9 +79,13 @@ void set_first_numbers(const ClothModel& model, const Hierarchy& hierarchy, T* a
                    [](double a) { return static_cast<T>(a); });
     if (model.solver == Solver::paper) return;
     const SolverLevel& cloth = hierarchy.levels.front();
-    std::transform(hierarchy.rest_lengths.begin(), hierarchy.rest_lengths.end(),
-                   arena + cloth.edge_base + edge_rest * cloth.edge_size,
-                   [](double a) { return static_cast<T>(a); });
+    const auto set_edges = [&](const std::vector<double>& values, int plane) {
+        std::transform(values.begin(), values.end(), arena + cloth.edge_base + plane * cloth.edge_size,
+                       [](double a) { return static_cast<T>(a); });
+    };
+    set_edges(hierarchy.rest_lengths, edge_rest);
+    set_edges(hierarchy.scales, edge_scale);
+    set_edges(hierarchy.bending, edge_bending);
     const auto at = [&](int plane, std::int32_t o) -> T& {
         return arena[static_cast<std::size_t>(cloth.base + plane * cloth.size + o)];
     };

@@ -36,8 +36,9 @@ enum class Binding : std::uint32_t {
     direction = 26,
     blocked = 27,
     body_sums = 28,
+    slopes = 29,
 };
-constexpr std::uint32_t binding_count = static_cast<std::uint32_t>(Binding::body_sums) + 1;
+constexpr std::uint32_t binding_count = static_cast<std::uint32_t>(Binding::slopes) + 1;
 
 /// All other bindings are storage buffers.
 constexpr bool is_uniform(Binding binding)

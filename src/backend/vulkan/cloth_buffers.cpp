@@ -97,11 +97,12 @@ ClothBuffers::ClothBuffers(const Device& device, const ClothModel& model,
 
     if (!model.node_centric()) {
         std::vector<std::array<std::uint32_t, 2>> ends, around;
-        std::vector<std::array<float, 2>> rest_class;
+        std::vector<std::array<float, 4>> rest_class;
         for (const Spring& spring : model.springs) {
             ends.push_back({spring.i, spring.j});
-            rest_class.push_back(
-                {static_cast<float>(spring.rest_length), static_cast<float>(spring.spring_class)});
+            rest_class.push_back({static_cast<float>(spring.rest_length),
+                                  static_cast<float>(spring.spring_class), static_cast<float>(spring.scale),
+                                  static_cast<float>(spring.bending)});
         }
         for (const Neighbour& neighbour : model.neighbours.entries)
             around.push_back({neighbour.node, neighbour.spring});
@@ -111,6 +112,9 @@ ClothBuffers::ClothBuffers(const Device& device, const ClothModel& model,
             filled(device, rest_class.data(), rest_class.size() * sizeof(rest_class[0]), "rest lengths");
         neighbour_start_ = filled(device, start.data(), start.size() * sizeof(start[0]), "neighbour rows");
         neighbours_ = filled(device, around.data(), around.size() * sizeof(around[0]), "neighbours");
+        if (model.integrator == Integrator::runge_kutta_4 || model.integrator == Integrator::explicit_euler)
+            slopes_ = device.make_buffer(2 * nodes * sizeof(Float4), Usage::eStorageBuffer, Memory::device,
+                                         "slopes");
         spring_force_ = device.make_buffer(ends.size() * sizeof(Float4), Usage::eStorageBuffer,
                                            Memory::device, "spring force");
     }
@@ -163,6 +167,7 @@ ClothBuffers::ClothBuffers(const Device& device, const ClothModel& model,
             {Binding::direction, &body_.direction()},
             {Binding::blocked, &body_.blocked()},
             {Binding::body_sums, &body_.sums()},
+            {Binding::slopes, &slopes_},
         };
         for (const auto& [binding, buffer] : bound) {
             if (buffer->size == 0) continue;  // this kind of cloth has none
@@ -231,6 +236,7 @@ const Buffer& ClothBuffers::buffer(Resource resource, std::uint32_t parity) cons
         case Resource::spring_force: return spring_force_;
         case Resource::normal: return normal_;
         case Resource::strain: return strain_;
+        case Resource::slopes: return slopes_;
         case Resource::measures: return measures_;
         case Resource::multiplier: return solver_.multiplier();
         case Resource::gradient: return body_.gradient();

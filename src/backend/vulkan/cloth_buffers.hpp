@@ -54,7 +54,7 @@ private:
     const ClothModel* model_;
     MeasureTree tree_;
     std::array<Buffer, 2> position_, velocity_;
-    Buffer parameters_, external_force_, spring_force_, normal_, strain_, measures_, root_;
+    Buffer parameters_, external_force_, spring_force_, slopes_, normal_, strain_, measures_, root_;
     Buffer springs_, spring_rest_class_, neighbour_start_, neighbours_;
     Buffer triangles_, triangle_start_, node_triangles_;
     SolverBuffers solver_;

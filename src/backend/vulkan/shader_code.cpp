@@ -28,6 +28,9 @@ constexpr std::uint32_t spring_force[] = {
 constexpr std::uint32_t list_step[] = {
 #include "shaders/list_step.comp.inc"
 };
+constexpr std::uint32_t stage_step[] = {
+#include "shaders/stage_step.comp.inc"
+};
 constexpr std::uint32_t sheet_measure[] = {
 #include "shaders/sheet_measure.comp.inc"
 };

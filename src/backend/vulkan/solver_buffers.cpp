@@ -37,7 +37,7 @@ struct SolverBlock {
     float relaxations[SolverConstants<float>::most_relaxations]{};
     float tolerances[4]{};
     Float4 acad_above_below, acad_near;
-    std::uint32_t has_damping = 0, exact_bend = 0, padding_before_has[2]{};
+    std::uint32_t has_damping = 0, exact_bend = 0, is_graded = 0, padding_before_has = 0;
     std::uint32_t has[4]{};
     std::int32_t curve_kinds[4]{};
     std::int32_t bottom_base = 0, part_stride = 0, padding[2]{};
@@ -151,6 +151,7 @@ void SolverBuffers::set_constants(double step_length)
                        c.acad_has_memory ? 1.0f : 0.0f};
     block.has_damping = c.has_damping ? 1 : 0;
     block.exact_bend = c.exact_bend ? 1 : 0;
+    block.is_graded = c.is_graded ? 1 : 0;
     block.bottom_base = hierarchy.bottom_base;
     const SumParts sum_parts(*model_, hierarchy);
     block.part_stride = sum_parts.stride;

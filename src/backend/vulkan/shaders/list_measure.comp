@@ -14,8 +14,11 @@ void main()
         for (uint e = neighbour_start[node]; e < neighbour_start[node + 1u]; ++e) {
             uint other = neighbours[e].x, spring = neighbours[e].y, k = spring_class_of(spring);
             if (other < node) continue;
-            m = measure_spring(m, position_of(node), position_of(other), spring_rest_of(spring),
-                               component(parameters.stiffness, k), k != bend);
+            precise float stiffness = component(parameters.stiffness, k) * spring_scale_of(spring);
+            m = measure_spring(m, position_of(node), position_of(other), spring_rest_of(spring), stiffness, k != bend);
+            precise float bent = bending_energy(position_of(node), position_of(other), spring_bending_of(spring));
+            precise float energy = m.elastic_energy + bent;
+            m.elastic_energy = energy;
         }
         m = with_node(m, node);
     }

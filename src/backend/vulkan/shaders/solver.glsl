@@ -26,7 +26,7 @@ layout(set = 0, binding = 18, std140) uniform Solver
     vec4 tolerances;         // of the linear solve, of Newton's method
     vec4 acad_above_below;   // by length squared over rest length squared; z, w: of those held
     vec4 acad_near;          // above, below; z: is it ACAD, w: does it remember
-    bool has_damping, exact_bend;
+    bool has_damping, exact_bend, is_graded;
     bvec4 has;               // classes of springs
     ivec4 curve_kinds;       // by class
     int bottom_base, part_stride, padding_0, padding_1;
@@ -135,6 +135,7 @@ real sheet_rest(int k)
     return rest_length_of(k == 0 ? 0u : k == 2 ? 1u : k < 4 ? 2u : k == 4 ? 3u : 4u);
 }
 bool has_damping() { return solver.has_damping; }
+bool is_graded() { return solver.is_graded; }
 bool has_bend() { return solver.has[bend]; }
 bool exact_bend() { return push.level == 0u && solver.exact_bend && solver.has[bend]; }
 real contact_stiffness() { return solver.step_contact.z; }

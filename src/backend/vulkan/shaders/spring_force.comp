@@ -11,7 +11,10 @@ void main()
     uint s = gl_GlobalInvocationID.x;
     if (s >= parameters.spring_count) return;
     uint i = springs[s].x, j = springs[s].y, k = spring_class_of(s);
+    precise float stiffness = component(parameters.stiffness, k) * spring_scale_of(s);
+    precise float damping = component(parameters.spring_damping, k) * spring_scale_of(s);
     precise vec3 force = spring_force(position_of(i), position_of(j), velocity_of(i), velocity_of(j), spring_rest_of(s),
-                                      component(parameters.stiffness, k), component(parameters.spring_damping, k));
+                                      stiffness, damping);
+    force = force + bending_force(position_of(i), position_of(j), spring_bending_of(s));
     spring_forces[s] = vec4(force, 0.0f);
 }

@@ -1,0 +1,170 @@
+// Integrators: the order of each, and the longest step that each stands.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "physics/measured.hpp"
+#include "test_cloths.hpp"
+
+namespace pliant {
+namespace {
+
+TEST(Stability, TheEstimateIsSafeAndNotFarFromTheTruth)
+{
+    const auto finite_with = [](double fraction) {
+        Scene scene;
+        Cloth cloth = test::flat_sheet(16, 16);
+        cloth.damping = 0;
+        cloth.springs = {{1000, 0}, {500, 0}, {100, 0}};
+        cloth.pin(Corner::top_left).pin(Corner::top_right);
+        scene.add(cloth);
+        SimulationOptions options;
+        options.backend = Backend::cpu;
+        const double stable = Simulation(scene, options).stable_step();
+        scene.time = {.duration = 1, .frame_rate = 1 / (fraction * stable), .substeps = 1};
+        Simulation simulation(scene, options);
+        EXPECT_EQ(simulation.stability_warning().empty(), fraction <= 1) << fraction;
+        for (int n = 0; n < 8000 && simulation.report().finite; ++n) simulation.advance(fraction * stable);
+        return simulation.report().finite && simulation.report().measures.max_stretch < 0.5;
+    };
+    EXPECT_TRUE(finite_with(1.0));
+    EXPECT_FALSE(finite_with(2.0));
+}
+
+constexpr Integrator integrators[] = {Integrator::symplectic_euler, Integrator::explicit_euler,
+                                      Integrator::runge_kutta_4, Integrator::implicit_euler};
+
+/// Where a mass between two springs is after 0.5 s. It starts across them as well as along, so that what they
+/// do is not linear; near the origin, a float tells it to 1e-9 m.
+Vec3d place_after(Integrator integrator, std::uint32_t substeps)
+{
+    SurfaceMesh mesh{{{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}}, {{0, 1, 2}}};
+    Cloth cloth = Cloth::mesh(mesh, {.node_mass = 0.125});
+    cloth.springs = {{25, 0.02}, {0, 0}, {0, 0}};
+    cloth.damping = 0.1;
+    cloth.velocity = {0.5, 3, 0};
+    cloth.pin(1u).pin(2u);
+    Scene scene;
+    scene.integrator = integrator;
+    scene.time = {.duration = 1, .frame_rate = 20, .substeps = substeps};
+    scene.newton_multigrid.newton_iterations = 50;
+    scene.newton_multigrid.newton_tolerance = 1e-8;
+    scene.newton_multigrid.linear_iterations = 20;
+    scene.newton_multigrid.linear_tolerance = 1e-6;
+    scene.add(cloth);
+    Simulation simulation(scene, test::on(Backend::reference));
+    for (int frame = 0; frame < 10; ++frame) simulation.advance(1.0 / 20);
+    return to_double(simulation.positions()[0]);
+}
+
+TEST(Order, OfPositionsIsThatOfTheIntegrator)
+{
+    // Row "order": the slope of the position's error over dt, 1 for the Euler family and 4 for Runge-Kutta,
+    // +- 0.1, over four refinements against the limit, which is Runge-Kutta's with a step 18 times finer than
+    // its finest here.
+    const Vec3d limit = place_after(Integrator::runge_kutta_4, 256);
+    for (const Integrator integrator : integrators) {
+        const bool fourth = integrator == Integrator::runge_kutta_4;
+        const bool implicit = integrator == Integrator::implicit_euler;
+        double before = 0, substeps_before = 0;
+        for (const std::uint32_t n : {6u, 8u, 12u, 18u, 28u}) {
+            const std::uint32_t substeps = fourth ? n / 2 : implicit ? 8 * n : 32 * n;
+            const Vec3d d = place_after(integrator, substeps) - limit;
+            const double error = std::sqrt(dot(d, d));
+            if (before > 0) {
+                const double slope = std::log(before / error) / std::log(substeps / substeps_before);
+                test::measured(std::string("order of ") + name_of(integrator), slope, fourth ? 4 : 1);
+                EXPECT_NEAR(slope, fourth ? 4 : 1, 0.1) << name_of(integrator) << ", error " << error;
+            }
+            before = error;
+            substeps_before = substeps;
+        }
+    }
+}
+
+TEST(Order, OfASheetIsOneInTheStep)
+{
+    // The swing of a pinned, sheared sheet after 0.25 s, by the integrator that is the default, against
+    // Runge-Kutta's.
+    const auto swing = [](Integrator integrator, std::uint32_t substeps) {
+        Scene scene;
+        scene.integrator = integrator;
+        scene.time = {.duration = 1, .frame_rate = 60, .substeps = substeps};
+        Cloth cloth = test::flat_sheet(5, 6, 0.5, 0.4);
+        cloth.springs = {{30, 0.01}, {15, 0.01}, {1, 0}};
+        cloth.pin(Edge::left);
+        scene.add(cloth);
+        Simulation simulation(scene, test::on(Backend::reference));
+        for (int frame = 0; frame < 15; ++frame) simulation.advance(1.0 / 60);
+        const auto x = simulation.positions();
+        return std::vector<Vec3>(x.begin(), x.end());
+    };
+    const auto limit = swing(Integrator::runge_kutta_4, 64);
+    double before = 0;
+    for (const std::uint32_t substeps : {32u, 64u, 128u, 256u, 512u}) {
+        const auto x = swing(Integrator::symplectic_euler, substeps);
+        double sum = 0;
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            const Vec3d d = to_double(x[i]) - to_double(limit[i]);
+            sum += dot(d, d);
+        }
+        if (before > 0) {
+            EXPECT_NEAR(std::log2(before / std::sqrt(sum)), 1, 0.1) << substeps;
+        }
+        before = std::sqrt(sum);
+    }
+}
+
+/// Whether a sheet as the paper's (figure 10: 32 x 32 nodes, 1000 N/m) is still one after 1,000 steps.
+/// Without weight, so that it stays flat, where its waves are known; it is drifting when its corners are
+/// caught.
+bool stands(Integrator integrator, double step, double damping, int steps = 500)
+{
+    Scene scene;
+    scene.integrator = integrator;
+    scene.gravity = {0, 0, 0};
+    scene.time = {.duration = 10, .frame_rate = std::max(1.0, 1 / step), .substeps = 1};
+    Cloth cloth = Cloth::sheet({.rows = 32, .columns = 32, .node_mass = 0.02});
+    cloth.springs = {{1000, 0}, {1000, 0}, {1000, 0}};
+    cloth.damping = damping;
+    cloth.velocity = {0.01, 0, 0.007};
+    cloth.pin(Corner::top_left).pin(Corner::top_right);
+    scene.add(cloth);
+    Simulation simulation(scene, test::on(Backend::cpu));
+    for (int n = 0; n < steps && simulation.report().finite; ++n) simulation.advance(step);
+    return simulation.report().finite && simulation.report().measures.max_speed < 1;
+}
+
+TEST(Stability, OfEachIntegratorIsWhereItsTheoryHasIt)
+{
+    // The stiffest wave of the flat sheet has omega^2 = 8 k / m, all three classes being alike: symplectic
+    // Euler stands to omega dt = 2, Runge-Kutta to 2.83, implicit Euler any step, and explicit Euler as far
+    // as damping d goes, dt = d / omega^2. Steps are tried a tenth apart.
+    const double omega = std::sqrt(8 * 1000 / 0.02);
+    const struct {
+        Integrator integrator;
+        double limit, damping;
+    } cases[] = {{Integrator::symplectic_euler, 2 / omega, 0},
+                 {Integrator::runge_kutta_4, 2.83 / omega, 0},
+                 {Integrator::explicit_euler, 200 / (omega * omega), 200}};
+    for (const auto& c : cases) {
+        double stable = 0, unstable = 0;
+        for (double step = 0.8 * c.limit; step < 3 * c.limit; step *= 1.1) {
+            if (!stands(c.integrator, step, c.damping)) {
+                unstable = step;
+                break;
+            }
+            stable = step;
+        }
+        test::measured(std::string("largest stable step of ") + name_of(c.integrator), stable, c.limit);
+        EXPECT_GT(stable, 0.85 * c.limit) << name_of(c.integrator);
+        EXPECT_GT(unstable, 0) << name_of(c.integrator);
+        EXPECT_LT(unstable, 1.25 * c.limit) << name_of(c.integrator);
+    }
+    EXPECT_TRUE(stands(Integrator::implicit_euler, 0.1, 0, 50));
+}
+
+}  // namespace
+}  // namespace pliant
