@@ -40,6 +40,7 @@ const char* name_of_resource(Resource resource)
         case Resource::measures: return "measures";
         case Resource::normal: return "normal";
         case Resource::strain: return "strain";
+        case Resource::slopes: return "slopes";
         case Resource::multiplier: return "multiplier";
         case Resource::gradient: return "gradient";
         case Resource::direction: return "direction";
