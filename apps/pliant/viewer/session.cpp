@@ -228,25 +228,39 @@ std::optional<NodeOf> Session::node_at(const OrbitCamera& camera, double x, doub
 {
     constexpr double reach = 40, together = 6;  // pixels
     const Matrix4 clip = clip_from_world(camera.camera(), width / height);
-    std::optional<NodeOf> best;
-    double best_distance = reach, best_depth = 0;
-    for (std::size_t c = 0; c < scene_.cloth_count(); ++c) {
-        const auto positions = simulation_->positions(c);
-        for (std::size_t i = 0; i < positions.size(); ++i) {
-            const Vec3d seen = seen_at(clip, to_double(positions[i]), width, height);
-            if (seen.z <= 0) continue;
-            const double distance = std::hypot(seen.x - x, seen.y - y);
-            // Of nodes behind each other the front one is meant, though another may be some pixels nearer.
-            const bool nearer = distance < best_distance - together ||
-                                (distance < best_distance + together && best && seen.z < best_depth) ||
-                                (!best && distance < reach);
-            if (!nearer || distance > reach) continue;
-            best = NodeOf{c, i};
-            best_distance = std::min(best_distance, distance);
-            best_depth = seen.z;
+    const auto for_each_within = [&](double pixels, const auto& f) {
+        for (std::size_t c = 0; c < scene_.cloth_count(); ++c) {
+            const auto positions = simulation_->positions(c);
+            for (std::size_t i = 0; i < positions.size(); ++i) {
+                const Vec3d place = to_double(positions[i]), seen = seen_at(clip, place, width, height);
+                const double distance = std::hypot(seen.x - x, seen.y - y);
+                if (seen.z > 0 && distance <= pixels) f(NodeOf{c, i}, place, distance);
+            }
         }
-    }
-    return best;
+    };
+    std::optional<NodeOf> nearest;
+    double least = reach;
+    Vec3d place_of_nearest;
+    for_each_within(reach, [&](NodeOf node, Vec3d place, double distance) {
+        if (nearest && distance >= least) return;
+        nearest = node;
+        least = distance;
+        place_of_nearest = place;
+    });
+    if (!nearest) return nearest;
+    // A node right in front of it, as of another layer, is the one that is seen, though it may be some pixels
+    // further off; a neighbour on the cloth lies beside it rather than in front.
+    const Vec3d eye = camera.camera().position;
+    const double depth = length(place_of_nearest - eye);
+    NodeOf front = *nearest;
+    double most = 0;
+    for_each_within(least + together, [&](NodeOf node, Vec3d place, double) {
+        const double before = depth - length(place - eye);
+        if (before <= most || before < 0.9 * length(place - place_of_nearest)) return;
+        front = node;
+        most = before;
+    });
+    return front;
 }
 
 void Session::grab(NodeOf node, Vec3d target)
