@@ -178,26 +178,6 @@ TEST(Limit, KindsAreTheGeneralLawWhereTheRestOfItIsZero)
         }
 }
 
-TEST(Limit, SlackSpringKeepsAnEighthOfItsStiffnessForNewtonsMethod)
-{
-    const auto along = [](const D::LimitCurve& curve, double l) {
-        return D::spring_state(curve, l * l, 1 / l, 0.5).along;
-    };
-    const auto [guided, tension, spring, thread] = limit_curves;
-    EXPECT_EQ(along(thread, 0.51), 4000);
-    EXPECT_EQ(along(thread, 0.49), 500);
-    EXPECT_EQ(along(tension, 0.506), 4000);
-    EXPECT_EQ(along(tension, 0.504), 500);  // it acts from 0.505 m on
-    EXPECT_EQ(along(guided, 0.506), 4050);
-    EXPECT_EQ(along(guided, 0.494), 4050);
-    EXPECT_EQ(along(guided, 0.504), 50);  // below half of its limit its own stiffness is enough
-    EXPECT_EQ(along(spring, 0.49), 70);
-    D::LimitCurve both_ways = thread;
-    both_ways.kind = 0;
-    both_ways.compressed = both_ways.beyond;
-    EXPECT_EQ(along(both_ways, 0.49), 4000);
-}
-
 // --- integration ---
 
 TEST(Integration, VelocityFirst)

@@ -25,15 +25,9 @@ struct SpringState
     real multiplier;  // N, what the limit adds to the force of the stiffness below it
 };
 
-// The Hessian is the one that Newton's method wants, not the exact one: a slack spring keeps a part of its stiffness K
-// along n, so that it resists before it is overstretched, and the stiffness across n, f / l, is never negative. With all of
-// K a crumpled cloth hangs as if it were rigid; with less than a tenth steps overshoot (docs/performance.md). A spring that
-// has a stiffness below its limit to go by keeps K from half of the limit on.
-LAW real slack_share()
-{
-    return real(0.125f);
-}
-
+// The Hessian is the one that Newton's method wants, not the exact one: a slack spring keeps its stiffness K along n,
+// so that it is taut before it is overstretched, and the stiffness across n, f / l, is never negative. A spring that has
+// a stiffness below its limit to go by keeps K from half of the limit on.
 LAW SpringState limited_spring(LimitCurve curve, real length2, real inverse_length, real rest_length)
 {
     real extension = length2 * inverse_length - rest_length;
@@ -43,10 +37,9 @@ LAW SpringState limited_spring(LimitCurve curve, real length2, real inverse_leng
     SpringState state;
     state.multiplier = curve.beyond * over - curve.compressed * under;
     state.force = curve.below * extension + state.multiplier;
-    mask guided = both(curve.below > 0.0f, slack > 0.0f);
-    real reach = choose(guided, 0.5f * slack, slack), share = choose(guided, real(0.0f), slack_share());
-    real nearest = largest(extension, choose(curve.compressed > 0.0f, real(0.0f) - extension, extension));
-    state.along = curve.below + largest(curve.beyond, curve.compressed) * choose(nearest < reach, share, real(1.0f));
+    real reach = choose(both(curve.below > 0.0f, slack > 0.0f), 0.5f * slack, real(0.0f) - rest_length);
+    mask near = largest(extension, choose(curve.compressed > 0.0f, real(0.0f) - extension, extension)) > reach;
+    state.along = curve.below + choose(near, largest(curve.beyond, curve.compressed), real(0.0f));
     state.across = largest(state.force * inverse_length, real(0.0f));
     state.energy = 0.5f * (curve.below * extension * extension + curve.beyond * over * over +
                            curve.compressed * under * under);
@@ -68,12 +61,11 @@ LAW SpringState plain_spring(LimitCurve curve, real length2, real inverse_length
 
 LAW SpringState taut_spring(LimitCurve curve, real length2, real inverse_length, real rest_length)
 {
-    real extension = length2 * inverse_length - rest_length;
-    real over = largest(extension, real(0.0f));
+    real over = largest(length2 * inverse_length - rest_length, real(0.0f));
     SpringState state;
     state.multiplier = curve.beyond * over;
     state.force = state.multiplier;
-    state.along = curve.beyond * choose(extension < 0.0f, slack_share(), real(1.0f));
+    state.along = curve.beyond;
     state.across = state.force * inverse_length;
     state.energy = 0.5f * state.force * over;
     return state;

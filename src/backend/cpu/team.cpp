@@ -97,7 +97,9 @@ void Team::run(unsigned count, void (*task)(void*, unsigned), void* context)
 /// A helper takes the part of its number, so that it finds in its caches what it left there.
 void Team::help(unsigned number)
 {
-    std::uint64_t seen = open_.load(std::memory_order_acquire);
+    // The region that is open may be the first of this frame, and all there is to do; parts of the last
+    // frame's are taken.
+    std::uint64_t seen = 0;
     Patience patience(true);  // the leader does what a sleeper leaves
     while (!ended_.load(std::memory_order_acquire)) {
         const std::uint64_t open = open_.load(std::memory_order_acquire);
