@@ -20,6 +20,38 @@ constexpr const char* exit_codes =
     "Exit codes: 0 good, 1 bad input, 2 bad usage, 3 the run diverged, 4 device failure, 130 ended by "
     "Ctrl-C.\n";
 
+/// What a simulation runs on, alike in every command that has one.
+void add_machine(CLI::App& app, SimulationOptions& options)
+{
+    static const std::map<std::string, Backend> backends = {{"auto", Backend::automatic},
+                                                            {"cpu", Backend::cpu},
+                                                            {"vulkan", Backend::vulkan},
+                                                            {"reference", Backend::reference}};
+    app.add_option_function<std::string>(
+           "--backend",
+           [&options](const std::string& name) {
+               const auto found = backends.find(name);
+               if (found == backends.end())
+                   throw CLI::ValidationError("--backend",
+                                              "'" + name + "' is none of auto, cpu, vulkan, reference");
+               options.backend = found->second;
+           },
+           "auto (a real GPU when there is one, else cpu), cpu, vulkan, or reference (serial, double)")
+        ->type_name("auto|cpu|vulkan|reference");
+    app.add_option("--device", options.device, "Vulkan device by its number in pliant info")
+        ->check(CLI::Range(0, 1000))
+        ->type_name("N");
+    app.add_option(
+           "--threads", options.threads,
+           "Threads of the cpu backend; the result does not depend on it (default: one for each core)")
+        ->check(CLI::Range(1, 1024))
+        ->type_name("N");
+}
+void add_validation(CLI::App& app, SimulationOptions& options)
+{
+    app.add_flag("--validation", options.validation, "Vulkan with its validation layer, for developers");
+}
+
 void add_run(CLI::App& app, RunOptions& options)
 {
     CLI::App* run = app.add_subcommand("run", "Simulate a scene and keep what you ask for");
@@ -31,29 +63,7 @@ void add_run(CLI::App& app, RunOptions& options)
     run->add_option("scene", options.scene, "A scene file, or the name of a built-in scene (pliant list)")
         ->required()
         ->type_name("SCENE");
-    static const std::map<std::string, Backend> backends = {{"auto", Backend::automatic},
-                                                            {"cpu", Backend::cpu},
-                                                            {"vulkan", Backend::vulkan},
-                                                            {"reference", Backend::reference}};
-    run->add_option_function<std::string>(
-           "--backend",
-           [&options](const std::string& name) {
-               const auto found = backends.find(name);
-               if (found == backends.end())
-                   throw CLI::ValidationError("--backend",
-                                              "'" + name + "' is none of auto, cpu, vulkan, reference");
-               options.simulation.backend = found->second;
-           },
-           "auto (a real GPU when there is one, else cpu), cpu, vulkan, or reference (serial, double)")
-        ->type_name("auto|cpu|vulkan|reference");
-    run->add_option("--device", options.simulation.device, "Vulkan device by its number in pliant info")
-        ->check(CLI::Range(0, 1000))
-        ->type_name("N");
-    run->add_option(
-           "--threads", options.simulation.threads,
-           "Threads of the cpu backend; the result does not depend on it (default: one for each core)")
-        ->check(CLI::Range(1, 1024))
-        ->type_name("N");
+    add_machine(*run, options.simulation);
     run->add_option("--instruction-set", options.simulation.instruction_set,
                     "SIMD of the cpu backend: sse2, avx2 or avx512 (default: the widest of this machine)")
         ->type_name("NAME");
@@ -94,8 +104,7 @@ void add_run(CLI::App& app, RunOptions& options)
     run->add_flag("--check", options.check,
                   "Hold the run against the scene's own check; exit code 1 when it fails")
         ->excludes("--frames");
-    run->add_flag("--validation", options.simulation.validation,
-                  "Vulkan with its validation layer, for developers");
+    add_validation(*run, options.simulation);
     run->add_flag("--quiet", options.quiet, "Print nothing but warnings and errors");
 }
 
@@ -115,25 +124,7 @@ void add_bench(CLI::App& app, BenchOptions& options)
                      "mss (mass-spring steps), constraint, acad, volume, stability or all (default)")
         ->check(CLI::IsMember({"mss", "constraint", "acad", "volume", "stability", "all"}))
         ->type_name("SUITE");
-    static const std::map<std::string, Backend> backends = {{"auto", Backend::automatic},
-                                                            {"cpu", Backend::cpu},
-                                                            {"vulkan", Backend::vulkan},
-                                                            {"reference", Backend::reference}};
-    bench
-        ->add_option_function<std::string>(
-            "--backend",
-            [&options](const std::string& name) { options.simulation.backend = backends.at(name); },
-            "auto (a real GPU when there is one, else cpu), cpu, vulkan, or reference (serial, double)")
-        ->check(CLI::IsMember({"auto", "cpu", "vulkan", "reference"}))
-        ->type_name("auto|cpu|vulkan|reference");
-    bench
-        ->add_option("--threads", options.simulation.threads,
-                     "Threads of the cpu backend (default: one for each core)")
-        ->check(CLI::Range(1, 1024))
-        ->type_name("N");
-    bench->add_option("--device", options.simulation.device, "Vulkan device by its number in pliant info")
-        ->check(CLI::Range(0, 1000))
-        ->type_name("N");
+    add_machine(*bench, options.simulation);
     bench
         ->add_option("--sizes", options.sizes,
                      "Nodes of the sheets (mss, constraint) or bodies (volume), instead of each suite's own")
@@ -223,28 +214,14 @@ void add_reproduce(CLI::App& app, ReproduceOptions& options)
     reproduce->add_flag("--list", options.list, "Tell the names of the experiments, and do nothing");
 }
 
-/// Options that view and render have in common with run.
+/// Options that view and render have in common.
 void add_simulation(CLI::App& app, SimulationOptions& options, std::vector<std::string>& overrides)
 {
-    static const std::map<std::string, Backend> backends = {{"auto", Backend::automatic},
-                                                            {"cpu", Backend::cpu},
-                                                            {"vulkan", Backend::vulkan},
-                                                            {"reference", Backend::reference}};
-    app.add_option_function<std::string>(
-           "--backend", [&options](const std::string& name) { options.backend = backends.at(name); },
-           "auto (a real GPU when there is one, else cpu), cpu, vulkan, or reference (serial, double)")
-        ->check(CLI::IsMember({"auto", "cpu", "vulkan", "reference"}))
-        ->type_name("auto|cpu|vulkan|reference");
-    app.add_option("--device", options.device, "Vulkan device by its number in pliant info")
-        ->check(CLI::Range(0, 1000))
-        ->type_name("N");
-    app.add_option("--threads", options.threads, "Threads of the cpu backend (default: one for each core)")
-        ->check(CLI::Range(1, 1024))
-        ->type_name("N");
+    add_machine(app, options);
     app.add_option("--set", overrides, "Change a value of the scene, as for pliant run")
         ->type_name("PATH=VALUE")
         ->allow_extra_args(false);
-    app.add_flag("--validation", options.validation, "Vulkan with its validation layer, for developers");
+    add_validation(app, options);
 }
 
 void add_view(CLI::App& app, ViewOptions& options)
@@ -341,14 +318,9 @@ int dispatch(int argc, char** argv)
     } catch (const CLI::Success& success) {
         return app.exit(success);  // --help, --version
     } catch (const CLI::ParseError& error) {
-        const char* command = app.got_subcommand("run")         ? "run "
-                              : app.got_subcommand("bench")     ? "bench "
-                              : app.got_subcommand("check")     ? "check "
-                              : app.got_subcommand("reproduce") ? "reproduce "
-                              : app.got_subcommand("view")      ? "view "
-                              : app.got_subcommand("render")    ? "render "
-                                                                : "";
-        std::fprintf(stderr, "pliant: %s; see 'pliant %s--help'\n", error.what(), command);
+        std::string command;
+        for (const CLI::App* chosen : app.get_subcommands()) command = chosen->get_name() + " ";
+        std::fprintf(stderr, "pliant: %s; see 'pliant %s--help'\n", error.what(), command.c_str());
         return static_cast<int>(ErrorKind::bad_usage);
     }
     if (app.got_subcommand("run")) return run_command(run_options);

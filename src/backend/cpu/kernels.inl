@@ -36,7 +36,7 @@ inline L::mask lanes_on_sheet(std::ptrdiff_t column, std::ptrdiff_t columns)
 
 struct Block {
     std::ptrdiff_t row, column, offset;
-    bool interior;  ///< all lanes have both neighbours two to the left and two to the right
+    bool interior;  ///< the neighbours of all lanes that the pass looks at are on the sheet
 };
 
 // As NodeLayout::offset, whose own code must not be compiled here.

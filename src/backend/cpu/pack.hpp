@@ -147,7 +147,6 @@ struct Group {
     {
         return {a.first * b.first, a.rest * b.rest};
     }
-    friend PLIANT_INLINE Group operator-(const Group& a) { return {-a.first, -a.rest}; }
     friend PLIANT_INLINE Mask operator>(const Group& a, const Group& b)
     {
         return {a.first > b.first, a.rest > b.rest};
@@ -177,7 +176,6 @@ struct Group<P, 1> {
     friend PLIANT_INLINE Group operator+(const Group& a, const Group& b) { return {a.first + b.first}; }
     friend PLIANT_INLINE Group operator-(const Group& a, const Group& b) { return {a.first - b.first}; }
     friend PLIANT_INLINE Group operator*(const Group& a, const Group& b) { return {a.first * b.first}; }
-    friend PLIANT_INLINE Group operator-(const Group& a) { return {-a.first}; }
     friend PLIANT_INLINE Mask operator>(const Group& a, const Group& b) { return {a.first > b.first}; }
 };
 
