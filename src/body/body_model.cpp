@@ -234,8 +234,15 @@ Ragged<std::uint32_t> fans_of(const Ragged<std::uint32_t>& rings)
             if (!fan.empty()) fans.push_back(std::move(fan));
             left[node] = 0;
         }
-    std::stable_sort(fans.begin(), fans.end(),
-                     [](const auto& a, const auto& b) { return a.size() > b.size(); });
+    // As the nodes: near each other by their apexes, and within a block by their length, so that packs are
+    // full.
+    std::stable_sort(fans.begin(), fans.end(), [](const auto& a, const auto& b) { return a[0] < b[0]; });
+    constexpr auto block = static_cast<std::ptrdiff_t>(BodyBlock::most);
+    for (auto first = fans.begin(); first != fans.end();) {
+        const auto last = first + std::min(block, fans.end() - first);
+        std::stable_sort(first, last, [](const auto& a, const auto& b) { return a.size() > b.size(); });
+        first = last;
+    }
     Ragged<std::uint32_t> result;
     result.start.push_back(0);
     for (const auto& fan : fans) {

@@ -76,7 +76,7 @@ std::vector<std::uint32_t> node_order(const SurfaceMesh& mesh);
 /// neighbour with the lowest index on.
 Ragged<std::uint32_t> rings_of(std::uint32_t node_count, std::span<const Triangle> triangles);
 
-/// Fans that hold each triangle once, the longest first.
+/// Fans that hold each triangle once, in the order of their apexes; of each 256 the longest first.
 Ragged<std::uint32_t> fans_of(const Ragged<std::uint32_t>& rings);
 
 /// Pairs (i < j) of nodes that internal springs join, in ascending order.

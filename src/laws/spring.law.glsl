@@ -1,5 +1,13 @@
 // Springs: eq. (1)-(2) of the cloth paper.
 
+// The force of a spring by what is between its ends: d = x_j - x_i, v_j - v_i, d . d and 1 / |d|.
+LAW vec3 spring_pull(vec3 d, vec3 relative_velocity, real length2, real inverse_length, real rest_length, real stiffness,
+                     real damping)
+{
+    vec3 n = d * inverse_length;
+    return n * (stiffness * (length2 * inverse_length - rest_length) + damping * dot3(relative_velocity, n));
+}
+
 // Force on node i of the spring to node j, N:
 //   f_i = (k (l - l0) + c (v_j - v_i) . n) n,   n = (x_j - x_i) / l,   f_j = -f_i bit for bit.
 // Coincident nodes have no direction and push nowhere.
@@ -7,9 +15,7 @@ LAW vec3 spring_force(vec3 xi, vec3 xj, vec3 vi, vec3 vj, real rest_length, real
 {
     vec3 d = xj - xi;
     real length2 = dot3(d, d);
-    real inverse_length = inverse_sqrt(length2);
-    vec3 n = d * inverse_length;
-    return n * (stiffness * (length2 * inverse_length - rest_length) + damping * dot3(vj - vi, n));
+    return spring_pull(d, vj - vi, length2, inverse_sqrt(length2), rest_length, stiffness, damping);
 }
 
 // The quadratic bending energy as springs of no length at rest (body/bending.hpp), N:  f_i = w (x_j - x_i)

@@ -4,11 +4,6 @@
 constexpr std::size_t slice_lanes = 16;  // as Slices::lanes
 constexpr std::size_t slices_in_block = 16;
 
-inline Vector gather(const ConstVectors& from, const std::uint32_t* index)
-{
-    return {Number::gather(from.x, index), Number::gather(from.y, index), Number::gather(from.z, index)};
-}
-inline ConstVectors as_const(const Vectors& a) { return {a.x, a.y, a.z}; }
 inline Vector vector_of(const Vector3<float>& a) { return {Number(a.x), Number(a.y), Number(a.z)}; }
 inline L::Blocked load_blocked(const BodyArguments& a, std::size_t block, std::ptrdiff_t offset)
 {
@@ -24,21 +19,6 @@ inline Number load_weight(const BodyArguments& a, std::ptrdiff_t offset)
 inline L::mask lanes_below(std::ptrdiff_t first, std::uint32_t count)
 {
     return lanes_on_sheet(first, static_cast<std::ptrdiff_t>(count));
-}
-
-/// Stores the lanes that belong to the block: behind its last node another body may begin.
-inline void store_some(float* to, const Number& a, std::ptrdiff_t lanes)
-{
-    if (lanes >= width) return a.store(to);
-    float values[width];
-    a.store(values);
-    for (std::ptrdiff_t k = 0; k < lanes; ++k) to[k] = values[k];
-}
-inline void store_some(const Vectors& to, std::ptrdiff_t offset, const Vector& a, std::ptrdiff_t lanes)
-{
-    store_some(to.x + offset, a.x, lanes);
-    store_some(to.y + offset, a.y, lanes);
-    store_some(to.z + offset, a.z, lanes);
 }
 
 /// Loads the lanes that belong to the block, of planes that another thread may be writing behind it.
@@ -63,50 +43,82 @@ inline void for_each_pack(const BodyBlock& block, Function&& f)
         f(place / slice_lanes, place % slice_lanes, place, static_cast<std::ptrdiff_t>(block.count - place));
 }
 
-struct PackRing {
-    Vector force, gradient;
+/// Sums over the rings of a slice, by number.
+struct SliceRing {
+    float force[3][slice_lanes], gradient[3][slice_lanes];
+
+    Vector force_at(std::size_t lane) const { return at(force, lane); }
+    Vector gradient_at(std::size_t lane) const { return at(gradient, lane); }
+    static PLIANT_INLINE Vector at(const float (&of)[3][slice_lanes], std::size_t lane)
+    {
+        return {Number::load(of[0] + lane), Number::load(of[1] + lane), Number::load(of[2] + lane)};
+    }
+    static PLIANT_INLINE void set(float (&of)[3][slice_lanes], std::size_t lane, const Vector& a)
+    {
+        a.x.store(of[0] + lane);
+        a.y.store(of[1] + lane);
+        a.z.store(of[2] + lane);
+    }
 };
 
-/// Springs and gradient of a pack of nodes, in the order of their rings; the rest lengths of entries that
-/// only fill up a row are negative, and they repeat the last neighbour, so that they add nothing.
+/// Adds the springs of a list to the forces on a slice, of nodes from `offset` on, in the order of the list;
+/// the rest lengths of entries that only fill up a row are negative, and they repeat the last neighbour, so
+/// that they add nothing. With the gradient of the volume, when the list is a ring.
 template <bool with_gradient>
-inline PackRing ring_of(const BodyArguments& a, std::size_t slice, std::size_t lane, const Vector& x,
-                        const Vector& v)
+PLIANT_INLINE void add_springs(const BodyArguments& a, const Slices& list, std::size_t slice,
+                               std::ptrdiff_t offset, float k, float damping, SliceRing& sums)
 {
-    const StepConstants<float>& c = *a.constants;
+    constexpr std::uint32_t most_rows = SpringSweeps::most / slice_lanes;
     const Vector zero{Number(0.0f), Number(0.0f), Number(0.0f)};
-    PackRing sums{zero, zero};
-    const auto add_spring = [&](const Slices& list, std::size_t row, const Vector& there, const Number& k,
-                                const Number& damping) {
-        const Number rest = Number::load(list.rest_length + row);
-        const Vector f =
-            L::spring_force(x, there, v, gather(a.velocity, list.offset + row), rest, k, damping);
-        sums.force = sums.force + L::choose(rest < Number(0.0f), zero, f);
-    };
-    const Number k(c.stiffness[0]), damping(c.damping[0]);
-    Vector first = zero, before = zero;
-    const std::uint32_t begin = a.ring.start[slice], end = a.ring.start[slice + 1];
-    for (std::uint32_t r = begin; r < end; ++r) {
-        const std::size_t row = r * slice_lanes + lane;
-        const Vector there = gather(a.position, a.ring.offset + row);
-        add_spring(a.ring, row, there, k, damping);
-        if (!with_gradient) continue;
-        const Vector side = there - x;
-        if (r == begin)
-            first = side;
-        else
-            sums.gradient = L::ring_add(sums.gradient, before, side);
-        before = side;
-    }
-    if (with_gradient) sums.gradient = L::ring_add(sums.gradient, before, first);
-    if (a.has_links) {
-        const Number inner_k(c.stiffness[1]), inner_damping(c.damping[1]);
-        for (std::uint32_t r = a.links.start[slice]; r < a.links.start[slice + 1]; ++r) {
-            const std::size_t row = r * slice_lanes + lane;
-            add_spring(a.links, row, gather(a.position, a.links.offset + row), inner_k, inner_damping);
+    SpringSweeps sweeps;
+    float first[3][slice_lanes] = {}, before[3][slice_lanes] = {};
+    const std::uint32_t begin = list.start[slice], end = list.start[slice + 1];
+    for (std::uint32_t from = begin; from < end; from += most_rows) {
+        const std::uint32_t rows = end - from < most_rows ? end - from : most_rows;
+        for (std::size_t lane = 0; lane < slice_lanes; lane += width) {
+            const auto place = offset + static_cast<std::ptrdiff_t>(lane);
+            const Vector x = load(a.position, place), v = load(a.velocity, place);
+            Vector gradient = zero, last = zero;
+            if (with_gradient && from > begin)
+                gradient = SliceRing::at(sums.gradient, lane), last = SliceRing::at(before, lane);
+            for (std::uint32_t r = 0; r < rows; ++r) {
+                const L::Motion there = gather_states(a.state, list.place + (from + r) * slice_lanes + lane);
+                const Vector side = there.position - x;
+                sweeps.set(r * slice_lanes + lane, side, there.velocity - v);
+                if (!with_gradient) continue;
+                if (from + r == begin)
+                    SliceRing::set(first, lane, side);
+                else
+                    gradient = L::ring_add(gradient, last, side);
+                last = side;
+            }
+            if (with_gradient) {
+                if (from + rows == end) gradient = L::ring_add(gradient, last, SliceRing::at(first, lane));
+                SliceRing::set(sums.gradient, lane, gradient);
+                SliceRing::set(before, lane, last);
+            }
+        }
+        sweeps.find_lengths(rows * slice_lanes);
+        for (std::size_t lane = 0; lane < slice_lanes; lane += width) {
+            Vector force = sums.force_at(lane);
+            for (std::uint32_t r = 0; r < rows; ++r) {
+                const Number rest = Number::load(list.rest_length + (from + r) * slice_lanes + lane);
+                const Vector f = sweeps.force(r * slice_lanes + lane, rest, Number(k), Number(damping));
+                force = force + L::choose(rest < Number(0.0f), zero, f);
+            }
+            SliceRing::set(sums.force, lane, force);
         }
     }
-    return sums;
+}
+
+template <bool with_gradient>
+PLIANT_INLINE void sum_ring(const BodyArguments& a, std::size_t slice, std::ptrdiff_t offset, SliceRing& sums)
+{
+    const StepConstants<float>& c = *a.constants;
+    for (std::size_t lane = 0; lane < slice_lanes; lane += width)
+        SliceRing::set(sums.force, lane, Vector{Number(0.0f), Number(0.0f), Number(0.0f)});
+    add_springs<with_gradient>(a, a.ring, slice, offset, c.stiffness[0], c.damping[0], sums);
+    if (a.has_links) add_springs<false>(a, a.links, slice, offset, c.stiffness[1], c.damping[1], sums);
 }
 
 template <bool with_gradient>
@@ -116,15 +128,15 @@ inline void step_block(const BodyArguments& a, std::size_t b)
     const Vector gravity = spread_vector<Number>(c.gravity);
     const Number dt(c.dt), decay(c.decay), thickness(c.thickness);
     const BodyBlock& block = a.blocks[b];
+    SliceRing ring{};
     for_each_pack(block, [&](std::size_t slice, std::size_t lane, std::size_t place, std::ptrdiff_t lanes) {
         const auto offset = static_cast<std::ptrdiff_t>(a.first_offset + block.first + place);
+        if (lane == 0) sum_ring<with_gradient>(a, b * slices_in_block + slice, offset, ring);
         const L::Motion now = {load(a.position, offset), load(a.velocity, offset)};
         const Number w = Number::load(a.inverse_mass + offset);
-        const PackRing ring =
-            ring_of<with_gradient>(a, b * slices_in_block + slice, lane, now.position, now.velocity);
-        Vector force = ring.force;
+        Vector force = ring.force_at(lane);
         if (a.external_force.x) force = force + load(a.external_force, offset);
-        if (with_gradient) force = force + ring.gradient * Number(a.numbers[block.body].pressure);
+        if (with_gradient) force = force + ring.gradient_at(lane) * Number(a.numbers[block.body].pressure);
         L::Motion next;
         next.velocity = L::velocity_step(now.velocity, force, w, gravity, decay, dt);
         next.position = L::position_step(now.position, next.velocity, dt);
@@ -133,10 +145,12 @@ inline void step_block(const BodyArguments& a, std::size_t b)
                                    w, dt);
         store_some(a.next_position, offset, next.position, lanes);
         store_some(a.next_velocity, offset, next.velocity, lanes);
+        store_records(a.next_state, offset, next.position, next.velocity, lanes);
     });
 }
 
-void ring_step(const BodyArguments& a, std::size_t first_block, std::size_t end_block)
+__attribute__((flatten)) void ring_step(const BodyArguments& a, std::size_t first_block,
+                                        std::size_t end_block)
 {
     for (std::size_t b = first_block; b < end_block; ++b)
         if (a.has_pressure)
@@ -190,11 +204,13 @@ inline L::VolumeCubic where(const L::mask& m, const L::VolumeCubic& a)
             L::choose(m, a.third, zero),  L::choose(m, a.arm, {zero, zero, zero})};
 }
 
-void volume_gather(const BodyArguments& a, std::size_t first_block, std::size_t end_block)
+__attribute__((flatten)) void volume_gather(const BodyArguments& a, std::size_t first_block,
+                                            std::size_t end_block)
 {
     const StepConstants<float>& c = *a.constants;
     const Vector gravity = spread_vector<Number>(c.gravity);
     const Number dt(c.dt), decay(c.decay);
+    SliceRing ring{};
     for (std::size_t b = first_block; b < end_block; ++b) {
         const BodyBlock& block = a.blocks[b];
         LaneTotals totals(L::volume_rate_of_nothing(), [](const L::VolumeRate& p, const L::VolumeRate& q) {
@@ -203,17 +219,18 @@ void volume_gather(const BodyArguments& a, std::size_t first_block, std::size_t 
         for_each_pack(
             block, [&](std::size_t slice, std::size_t lane, std::size_t place, std::ptrdiff_t lanes) {
                 const auto offset = static_cast<std::ptrdiff_t>(a.first_offset + block.first + place);
-                const Vector x = load(a.position, offset), v = load(a.velocity, offset);
+                const Vector v = load(a.velocity, offset);
                 const Number w = Number::load(a.inverse_mass + offset);
-                const PackRing ring = ring_of<true>(a, b * slices_in_block + slice, lane, x, v);
-                Vector force = ring.force;
+                if (lane == 0) sum_ring<true>(a, b * slices_in_block + slice, offset, ring);
+                const Vector gradient = ring.gradient_at(lane);
+                Vector force = ring.force_at(lane);
                 if (a.external_force.x) force = force + load(a.external_force, offset);
-                if (a.has_pressure) force = force + ring.gradient * Number(a.numbers[block.body].pressure);
+                if (a.has_pressure) force = force + gradient * Number(a.numbers[block.body].pressure);
                 const Vector next = L::velocity_step(v, force, w, gravity, decay, dt);
-                store_some(a.gradient, offset, ring.gradient, lanes);
+                store_some(a.gradient, offset, gradient, lanes);
                 store_some(a.next_velocity, offset, next, lanes);
-                L::VolumeRate rate = L::volume_rate_of(ring.gradient, next, w, load_weight(a, offset),
-                                                       load_blocked(a, b, offset));
+                L::VolumeRate rate =
+                    L::volume_rate_of(gradient, next, w, load_weight(a, offset), load_blocked(a, b, offset));
                 if (lanes < width)
                     rate = where(lanes_below(static_cast<std::ptrdiff_t>(place), block.count), rate);
                 totals.add(slice, lane, rate);
@@ -227,7 +244,8 @@ void volume_gather(const BodyArguments& a, std::size_t first_block, std::size_t 
     }
 }
 
-void volume_step(const BodyArguments& a, std::size_t first_block, std::size_t end_block)
+__attribute__((flatten)) void volume_step(const BodyArguments& a, std::size_t first_block,
+                                          std::size_t end_block)
 {
     const StepConstants<float>& c = *a.constants;
     const Number dt(c.dt), thickness(c.thickness);
@@ -261,21 +279,46 @@ void volume_step(const BodyArguments& a, std::size_t first_block, std::size_t en
                 store_some(a.blocked, offset, held.normal, lanes);
                 store_some(a.blocked_count + offset, held.count, lanes);
             }
-            store_some(a.direction, offset, L::volume_direction(gradient, mean, w, weight, held), lanes);
+            const Vector direction = L::volume_direction(gradient, mean, w, weight, held);
+            store_some(a.direction, offset, direction, lanes);
+            store_records(a.ends, offset, next.position, direction, lanes);
         });
         a.any_blocked[b] = any;
     }
 }
 
-/// Of the next state along the directions; or (`measures`) of the current state as it is.
-void volume_cubic(const BodyArguments& a, std::size_t first_block, std::size_t end_block)
+/// The fans of a pack. Of the next state along the directions; or (`measures`) of the current state as it is.
+template <bool measures>
+inline L::VolumeCubic cubic_of_fans(const BodyArguments& a, std::size_t slice, std::size_t lane,
+                                    const Vector& centre)
 {
     const Vector zero{Number(0.0f), Number(0.0f), Number(0.0f)};
-    const ConstVectors position = a.measures ? a.position : as_const(a.next_position);
-    const ConstVectors direction = as_const(a.direction);
-    const auto change_of = [&](const std::uint32_t* index) {
-        return a.measures ? zero : gather(direction, index);
+    const auto gather = [&](const std::uint32_t* offset) {
+        if (measures) return L::Motion{gather_vectors(a.state, offset), zero};
+        return gather_states(a.ends, offset);  // a change for a velocity
     };
+    const std::uint32_t begin = a.fans.start[slice], end = a.fans.start[slice + 1];
+    const std::uint32_t* offset = a.fans.place + begin * slice_lanes + lane;
+    const L::Motion apex = gather(offset);
+    L::FanSums fan = L::fan_of_nothing();
+    Vector side = zero, change = zero;
+    for (std::uint32_t r = begin + 1; r < end; ++r) {
+        offset += slice_lanes;
+        const L::Motion corner = gather(offset);
+        const Vector next_side = corner.position - apex.position,
+                     next_change = corner.velocity - apex.velocity;
+        if (r > begin + 1) fan = L::fan_add(fan, side, next_side, change, next_change);
+        side = next_side;
+        change = next_change;
+    }
+    L::VolumeCubic cubic = L::fan_cubic(fan, apex.position - centre, apex.velocity);
+    if (measures) cubic.first = cubic.second = cubic.third = Number(0.0f);  // without the sign of zeros
+    return cubic;
+}
+
+template <bool measures>
+inline void sum_fans(const BodyArguments& a, std::size_t first_block, std::size_t end_block)
+{
     for (std::size_t b = first_block; b < end_block; ++b) {
         const BodyBlock& block = a.blocks[b];
         const Vector centre = vector_of(a.numbers[block.body].centre);
@@ -284,23 +327,7 @@ void volume_cubic(const BodyArguments& a, std::size_t first_block, std::size_t e
         });
         for_each_pack(
             block, [&](std::size_t slice, std::size_t lane, std::size_t place, std::ptrdiff_t lanes) {
-                const std::size_t s = b * slices_in_block + slice;
-                const std::uint32_t begin = a.fans.start[s], end = a.fans.start[s + 1];
-                const std::uint32_t* index = a.fans.offset + begin * slice_lanes + lane;
-                const Vector apex = gather(position, index), apex_change = change_of(index);
-                L::FanSums fan = L::fan_of_nothing();
-                Vector side = zero, change = zero;
-                for (std::uint32_t r = begin + 1; r < end; ++r) {
-                    index += slice_lanes;
-                    const Vector next_side = gather(position, index) - apex,
-                                 next_change = change_of(index) - apex_change;
-                    if (r > begin + 1) fan = L::fan_add(fan, side, next_side, change, next_change);
-                    side = next_side;
-                    change = next_change;
-                }
-                L::VolumeCubic cubic = L::fan_cubic(fan, apex - centre, apex_change);
-                if (a.measures)
-                    cubic.first = cubic.second = cubic.third = Number(0.0f);  // without the sign of zeros
+                L::VolumeCubic cubic = cubic_of_fans<measures>(a, b * slices_in_block + slice, lane, centre);
                 if (lanes < width)
                     cubic = where(lanes_below(static_cast<std::ptrdiff_t>(place), block.count), cubic);
                 totals.add(slice, lane, cubic);
@@ -313,7 +340,17 @@ void volume_cubic(const BodyArguments& a, std::size_t first_block, std::size_t e
     }
 }
 
-void volume_correct(const BodyArguments& a, std::size_t first_block, std::size_t end_block)
+__attribute__((flatten)) void volume_cubic(const BodyArguments& a, std::size_t first_block,
+                                           std::size_t end_block)
+{
+    if (a.measures)
+        sum_fans<true>(a, first_block, end_block);
+    else
+        sum_fans<false>(a, first_block, end_block);
+}
+
+__attribute__((flatten)) void volume_correct(const BodyArguments& a, std::size_t first_block,
+                                             std::size_t end_block)
 {
     const Number inverse_dt(a.constants->inverse_dt);
     for (std::size_t b = first_block; b < end_block; ++b) {
@@ -326,6 +363,7 @@ void volume_correct(const BodyArguments& a, std::size_t first_block, std::size_t
                 load(a.direction, offset), s, inverse_dt);
             store_some(a.next_position, offset, end.position, lanes);
             store_some(a.next_velocity, offset, end.velocity, lanes);
+            store_records(a.next_state, offset, end.position, end.velocity, lanes);
         });
     }
 }

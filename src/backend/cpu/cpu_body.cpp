@@ -49,10 +49,11 @@ CpuBody::SliceArrays CpuBody::sliced(const std::vector<BodyBlock>& blocks, const
                     // Beyond the end of a row its last entry again, without a spring: it adds nothing.
                     const Entry entry =
                         k < of.size() ? of[k] : Entry{of.empty() ? block.first : of.back().node, -1};
-                    slices.offset.push_back(static_cast<std::uint32_t>(layout.offset(entry.node)));
+                    slices.place.push_back(
+                        static_cast<std::uint32_t>(layout.offset(entry.node) * state_size));
                     if (springs) slices.rest_length.push_back(entry.rest_length);
                 }
-            slices.start.push_back(static_cast<std::uint32_t>(slices.offset.size() / Slices::lanes));
+            slices.start.push_back(static_cast<std::uint32_t>(slices.place.size() / Slices::lanes));
         }
     return slices;
 }
@@ -76,7 +77,7 @@ CpuBody::CpuBody(const PlainCloth<float>& cloth)
         for (const std::uint32_t node : body.fans.row(fan)) entries.push_back({node, 0});
         return entries;
     });
-    has_links_ = !links_.offset.empty();
+    has_links_ = !links_.place.empty();
     any_blocked_.resize(body.node_blocks.size(), 0);
     numbers_.resize(body.parts.size());
     sums_.resize(std::max(body.node_blocks.size(), body.fan_blocks.size()));
@@ -111,7 +112,7 @@ void CpuBody::prepare(const Call& call, PlainCloth<float>& cloth, const StepCons
     }
 }
 
-void CpuBody::run(const Call& call, PlainCloth<float>& cloth, const Kernels& kernels,
+void CpuBody::run(const Call& call, PlainCloth<float>& cloth, StateRecords& records, const Kernels& kernels,
                   const StepConstants<float>& constants, std::span<const Laws<float>::Collider> colliders,
                   std::size_t begin, std::size_t end)
 {
@@ -125,6 +126,9 @@ void CpuBody::run(const Call& call, PlainCloth<float>& cloth, const Kernels& ker
     a.next_position = pointers(cloth.position[next]);
     a.next_velocity = pointers(cloth.velocity[next]);
     if (cloth.model.has_external_force()) a.external_force = pointers(std::as_const(cloth.external_force));
+    a.state = records.at(now);
+    a.next_state = records.at(next);
+    a.ends = records.at(StateRecords::ends);
     a.gradient = pointers(plain.gradient);
     a.direction = pointers(plain.direction);
     a.blocked = pointers(plain.blocked);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "backend/cpu/kernels.hpp"
+#include "backend/cpu/state_records.hpp"
 #include "backend/host/plain_cloth.hpp"
 
 namespace pliant::cpu {
@@ -20,17 +21,17 @@ public:
     /// thread.
     void prepare(const Call& call, PlainCloth<float>& cloth, const StepConstants<float>& constants);
     /// Runs the blocks [begin, end) of a call; parts may run at once.
-    void run(const Call& call, PlainCloth<float>& cloth, const Kernels& kernels,
+    void run(const Call& call, PlainCloth<float>& cloth, StateRecords& records, const Kernels& kernels,
              const StepConstants<float>& constants, std::span<const Laws<float>::Collider> colliders,
              std::size_t begin, std::size_t end);
 
 private:
     struct SliceArrays {
-        std::vector<std::uint32_t> start{0}, offset;
+        std::vector<std::uint32_t> start{0}, place;
         std::vector<float> rest_length;
         Slices view() const
         {
-            return {start.data(), offset.data(), rest_length.empty() ? nullptr : rest_length.data()};
+            return {start.data(), place.data(), rest_length.empty() ? nullptr : rest_length.data()};
         }
     };
     struct Entry {

@@ -8,8 +8,11 @@
 #include "backend/cpu/cpu_body.hpp"
 #include "backend/cpu/jobs.hpp"
 #include "backend/cpu/kernels.hpp"
+#include "backend/cpu/measured_springs.hpp"
 #include "backend/cpu/pointers.hpp"
 #include "backend/cpu/sheet_steps.hpp"
+#include "backend/cpu/spring_list.hpp"
+#include "backend/cpu/state_records.hpp"
 #include "backend/cpu/team.hpp"
 #include "backend/host/plain_cloth.hpp"
 #include "backend/host/solver_state.hpp"
@@ -21,47 +24,21 @@ namespace {
 using cpu::Kernels;
 using cpu::pointers;
 
-constexpr std::size_t spring_pack = 16;  ///< springs are divided and padded in whole packs of the widest kind
-
-std::size_t round_up(std::size_t n, std::size_t unit) { return (n + unit - 1) / unit * unit; }
-
-/// The springs of a cloth as the kernel wants them.
-struct SpringArrays {
-    std::vector<std::uint32_t> first, second;
-    std::vector<float> rest_length, stiffness, damping, bending;
-
-    SpringArrays(const ClothModel& model, const NodeLayout& layout)
-    {
-        for (const Spring& spring : model.springs) {
-            const auto k = static_cast<std::size_t>(spring.spring_class);
-            first.push_back(static_cast<std::uint32_t>(layout.offset(spring.i)));
-            second.push_back(static_cast<std::uint32_t>(layout.offset(spring.j)));
-            rest_length.push_back(static_cast<float>(spring.rest_length));
-            const auto scale = static_cast<float>(spring.scale);
-            stiffness.push_back(static_cast<float>(model.parameters.stiffness[k]) * scale);
-            damping.push_back(static_cast<float>(model.parameters.spring_damping[k]) * scale);
-            bending.push_back(static_cast<float>(spring.bending));
-        }
-        const std::size_t size = round_up(first.size(), spring_pack);
-        const auto somewhere = static_cast<std::uint32_t>(layout.offset(0));
-        first.resize(size, somewhere);
-        second.resize(size, somewhere);
-        for (auto* numbers : {&rest_length, &stiffness, &damping, &bending}) numbers->resize(size, 0.0f);
-    }
-};
-
 struct CpuCloth {
     CpuCloth(const ClothModel& model, std::size_t most_parts)
         : plain(model),
-          springs(model, plain.layout),
+          records(plain),
+          springs(plain),
+          measured(plain),
           solver(model, model.hierarchy),
           body(plain),
           sheet(plain.layout, model.is_sheet() ? most_parts : 0)
     {
-        plain.spring_force = Planes<float>(springs.first.size());
     }
     PlainCloth<float> plain;
-    SpringArrays springs;
+    cpu::StateRecords records;
+    cpu::SpringList springs;
+    cpu::MeasuredSprings measured;
     SolverState<float> solver;
     cpu::CpuBody body;
     cpu::SheetSteps sheet;
@@ -69,7 +46,7 @@ struct CpuCloth {
 
 /// One call with all it needs; `part` runs a piece of it.
 struct Work {
-    enum class Unit { rows, springs, measures, values, solver, single, body } unit = Unit::values;
+    enum class Unit { rows, springs, list, measures, values, solver, single, body } unit = Unit::values;
     std::size_t size = 0;      ///< in units
     std::size_t multiple = 1;  ///< parts begin at multiples of this
     std::size_t weight = 1;    ///< nodes or springs in a unit, for the decision how many threads are worth it
@@ -103,11 +80,17 @@ struct Work {
             weight = plain.layout.columns;
         } else if (call->pass == Pass::spring_force) {
             unit = Unit::springs;
-            size = cloth->springs.first.size();
-            multiple = spring_pack;
+            size = cloth->springs.spring_count();
+            multiple = cpu::SpringList::pack;
+        } else if (call->pass == Pass::list_step) {
+            unit = Unit::list;
+            size = cloth->springs.slice_count();
+            weight = cpu::Slices::lanes;
         } else {
+            plain.make_room_for(call->pass);
             size = plain.size_of(*call);
-            if (call->pass == Pass::sheet_measure) unit = Unit::measures;
+            const bool of_mesh = call->pass == Pass::list_measure && !plain.model.is_sheet();
+            if (call->pass == Pass::sheet_measure || of_mesh) unit = Unit::measures;
             const PassSize pass_size = description_of(call->pass).size;
             if (pass_size == PassSize::block || pass_size == PassSize::fan) weight = block_size;
         }
@@ -122,13 +105,16 @@ struct Work {
         if (unit == Unit::rows)
             rows(begin, end);
         else if (unit == Unit::springs)
-            springs(begin, end);
+            cloth->springs.find_forces(*call, cloth->plain, cloth->records, *kernels, begin, end);
+        else if (unit == Unit::list)
+            cloth->springs.step(*call, cloth->plain, cloth->records, *kernels, *constants, colliders, begin,
+                                end);
         else if (unit == Unit::measures)
             measures(begin, end);
         else if (unit == Unit::solver)
             kernels->solve(*solver, *call, static_cast<int>(begin), static_cast<int>(end));
         else if (unit == Unit::body)
-            cloth->body.run(*call, cloth->plain, *kernels, *constants, colliders, begin, end);
+            cloth->body.run(*call, cloth->plain, cloth->records, *kernels, *constants, colliders, begin, end);
         else if (unit == Unit::single)
             cloth->solver.run(*call, *solver, begin, end);
         else
@@ -164,19 +150,10 @@ private:
         arguments.colliders = colliders.data();
         arguments.collider_count = colliders.size();
         arguments.measures = &plain.measures.data()->max_stretch;
-        kernels->sheet_measure(arguments, begin, end);
-    }
-
-    void springs(std::size_t begin, std::size_t end) const
-    {
-        PlainCloth<float>& plain = cloth->plain;
-        const SpringArrays& list = cloth->springs;
-        kernels->spring_forces(
-            {pointers(std::as_const(plain.position[call->parity])),
-             pointers(std::as_const(plain.velocity[call->parity])), pointers(plain.spring_force),
-             list.first.data(), list.second.data(), list.rest_length.data(), list.stiffness.data(),
-             list.damping.data(), list.bending.data()},
-            begin, end);
+        if (call->pass == Pass::sheet_measure) return kernels->sheet_measure(arguments, begin, end);
+        arguments.state = cloth->records.at(call->parity);
+        arguments.springs = cloth->measured.view();
+        kernels->mesh_measure(arguments, begin, end);
     }
 };
 
@@ -225,6 +202,7 @@ public:
                std::span<const Vec3> velocities) override
     {
         cloths_[cloth].plain.write(positions, velocities);
+        cloths_[cloth].records.forget();
     }
     void take_mass(std::uint32_t cloth, std::uint32_t node) override
     {
@@ -270,12 +248,26 @@ private:
                 place_colliders(call, cloth.plain.model.origin, input);
                 Work work(call, cloth, kernels_, constants_[call.cloth], solver_constants_[call.cloth],
                           colliders_);
+                make_records(call, cloth);
                 run(work);
             }
+            cloth.records.follow(call);
             const auto now = std::chrono::steady_clock::now();
             clock_.add(call.pass, std::chrono::duration<double, std::milli>(now - time).count(), calls);
             time = now;
         }
+    }
+
+    void make_records(const Call& call, CpuCloth& cloth)
+    {
+        if (!cloth.records.are_missing(call)) return;
+        const cpu::RecordArguments arguments = cloth.records.missing(call, cloth.plain);
+        constexpr std::size_t pack = NodeLayout::pad;
+        const std::size_t packs = cloth.plain.layout.size / pack, parts = part_count(packs, pack);
+        run_parts(parts, [&](std::size_t index) {
+            kernels_.record_states(arguments, packs * index / parts * pack,
+                                   packs * (index + 1) / parts * pack);
+        });
     }
 
     void place_colliders(const Call& call, Vec3d origin, const FrameInput& input)

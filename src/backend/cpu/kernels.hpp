@@ -48,12 +48,22 @@ struct SheetStretch {
     float* carried;        ///< carried_size for each step
 };
 
-/// Measures of a sheet's nodes, by blocks of `block_size` nodes in their order.
+/// Springs of a mesh from each node to those of higher index, in slices of 16 nodes: rows as of Slices.
+struct MeasuredSlices {
+    const std::uint32_t *start, *place;
+    const float* rest_length;          ///< m; negative where there is no spring
+    const float *stiffness, *bending;  ///< N/m
+    const float* counts;               ///< 1 of structural and shear springs, else 0
+};
+
+/// Measures of nodes, by blocks of `block_size` nodes in their order.
 struct MeasureArguments {
     const NodeLayout* layout;
     ConstVectors position, velocity;
+    const float* state;      ///< records, of a mesh
+    MeasuredSlices springs;  ///< of a mesh
     const float* inverse_mass;
-    const float* masses;  ///< kg, of each node, pinned ones too
+    const double* masses;  ///< kg, of each node, pinned ones too
     std::size_t node_count;
     const StepConstants<float>* constants;
     const Laws<float>::Collider* colliders;
@@ -61,22 +71,53 @@ struct MeasureArguments {
     float* measures;  ///< eight numbers for each block
 };
 
-/// Forces of springs, whose ends are offsets into the planes. All arrays are padded to whole packs of 16 with
-/// springs of no length, and `first` and `end` of a call are multiples of 16.
-struct SpringArguments {
+/// Floats of a node's state in a record: position and velocity, with a pad behind each (records.hpp); and of
+/// a vector.
+constexpr std::size_t state_size = 8, vector_size = 4;
+
+/// The state of nodes, from planes to records.
+struct RecordArguments {
     ConstVectors position, velocity;
-    Vectors force;
+    float* state;
+};
+
+/// Forces of springs, whose ends are places of records, in floats. All arrays are padded to multiples of 32
+/// with springs of no length, and `first` and `end` of a call are such, too.
+struct SpringArguments {
+    const float* state;  ///< records
+    float* force;        ///< vectors
     const std::uint32_t *first, *second;
     const float *rest_length, *stiffness, *damping, *bending;
 };
 
 /// Rows of 16 lanes: the k-th entry of each of 16 neighbouring nodes or fans. Slice s has the rows from
-/// start[s] to start[s + 1]; entries are offsets into the planes.
+/// start[s] to start[s + 1]; entries are places of records, in floats.
 struct Slices {
     static constexpr std::size_t lanes = 16;
     const std::uint32_t* start;
-    const std::uint32_t* offset;
+    const std::uint32_t* place;
     const float* rest_length;  ///< m; negative where there is no spring. Null for fans.
+};
+
+/// Up to 16 nodes side by side in the planes: those of slice s.
+struct NodeRun {
+    std::uint32_t offset, count;
+};
+
+/// A step from the forces of springs. `springs` has the place of a vector for each entry of a slice, in
+/// floats, and one more where it is subtracted.
+struct ListArguments {
+    const NodeRun* runs;
+    const std::uint32_t *start, *springs;
+    const float* force;  ///< vectors, of springs; behind the last one a vector of 0
+    ConstVectors position, velocity;
+    Vectors next_position, next_velocity;
+    float* next_state;            ///< records
+    ConstVectors external_force;  ///< x is null without any
+    const float* inverse_mass;
+    const StepConstants<float>* constants;
+    const Laws<float>::Collider* colliders;
+    std::size_t collider_count;
 };
 
 /// What a step of a body has found out about it as a whole.
@@ -96,6 +137,9 @@ struct BodyArguments {
     ConstVectors position, velocity;
     Vectors next_position, next_velocity;
     ConstVectors external_force;  ///< x is null without any
+    const float* state;           ///< records of the current state
+    float* next_state;
+    float* ends;  ///< records of the next position and of the direction
     Vectors gradient, direction, blocked;
     float* blocked_count;
     /// By block of nodes: 1 where some node is blocked. Elsewhere the planes hold zeros, and nobody reads or
@@ -119,7 +163,10 @@ struct Kernels {
     void (*sheet_steps)(const SheetStretch&);
     void (*sheet_wind)(const SheetArguments&, std::size_t first_row, std::size_t end_row);
     void (*sheet_measure)(const MeasureArguments&, std::size_t first_block, std::size_t end_block);
+    void (*mesh_measure)(const MeasureArguments&, std::size_t first_block, std::size_t end_block);
+    void (*record_states)(const RecordArguments&, std::size_t first, std::size_t end);
     void (*spring_forces)(const SpringArguments&, std::size_t first, std::size_t end);
+    void (*list_step)(const ListArguments&, std::size_t first_slice, std::size_t end_slice);
     BodyKernel ring_step, volume_gather, volume_step, volume_cubic, volume_correct;
     /// Segments or rows of a pass of the constraint solver.
     void (*solve)(const SolverContext<float>&, const Call&, int first, int end);

@@ -4,6 +4,7 @@
 // known.
 #include "backend/cpu/kernels.hpp"
 #include "backend/cpu/pack.hpp"
+#include "backend/cpu/records.hpp"
 #include "backend/host/solver_kernels.hpp"
 
 namespace pliant::cpu {
@@ -97,23 +98,9 @@ void sheet_wind(const SheetArguments& a, std::size_t first_row, std::size_t end_
     });
 }
 
-void spring_forces(const SpringArguments& a, std::size_t first, std::size_t end)
-{
-    const auto gather = [](const ConstVectors& from, const std::uint32_t* index) {
-        return Vector{Number::gather(from.x, index), Number::gather(from.y, index),
-                      Number::gather(from.z, index)};
-    };
-    for (std::size_t s = first; s < end; s += width) {
-        const Vector xi = gather(a.position, a.first + s), xj = gather(a.position, a.second + s);
-        const Vector force = L::spring_force(
-            xi, xj, gather(a.velocity, a.first + s), gather(a.velocity, a.second + s),
-            Number::load(a.rest_length + s), Number::load(a.stiffness + s), Number::load(a.damping + s));
-        store(a.force, static_cast<std::ptrdiff_t>(s),
-              force + L::bending_force(xi, xj, Number::load(a.bending + s)));
-    }
-}
-
 #include "backend/cpu/sheet_kernels.inl"
+
+#include "backend/cpu/list_kernels.inl"
 
 #include "backend/cpu/measure_kernels.inl"
 
@@ -127,8 +114,9 @@ void solve(const SolverContext<float>& context, const Call& call, int first, int
 }  // namespace
 
 extern const Kernels PLIANT_KERNELS;
-const Kernels PLIANT_KERNELS = {PLIANT_KERNELS_NAME, sheet_steps,    sheet_wind,    sheet_measure,
-                                spring_forces,       ring_step,      volume_gather, volume_step,
-                                volume_cubic,        volume_correct, solve};
+const Kernels PLIANT_KERNELS = {PLIANT_KERNELS_NAME, sheet_steps,   sheet_wind,    sheet_measure,
+                                mesh_measure,        record_states, spring_forces, list_step,
+                                ring_step,           volume_gather, volume_step,   volume_cubic,
+                                volume_correct,      solve};
 
 }  // namespace pliant::cpu

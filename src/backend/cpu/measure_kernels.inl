@@ -1,4 +1,4 @@
-// Measures of a sheet at the end of a frame: included by kernels.inl.
+// Measures at the end of a frame: included by kernels.inl.
 
 /// Measures of the nodes of a block, by number: what the fixed tree merges.
 struct BlockMeasures {
@@ -59,20 +59,18 @@ inline L::Measure measured_springs(const MeasureArguments& a, const Block& block
     return m;
 }
 
-/// A pack's nodes; lanes beyond the last node of the sheet are of no meaning.
-inline L::Measure measured_nodes(const MeasureArguments& a, const Block& block)
+/// With what a pack's nodes have beside springs: `node` is the first; lanes beyond the last are of no
+/// meaning.
+inline L::Measure with_nodes(const MeasureArguments& a, L::Measure m, std::size_t node, std::ptrdiff_t offset,
+                             const Vector& x)
 {
     const StepConstants<float>& c = *a.constants;
-    const Vector x = load(a.position, block.offset);
-    L::Measure m = measured_springs(a, block, x);
-    const std::size_t node =
-        static_cast<std::size_t>(block.row) * a.layout->columns + static_cast<std::size_t>(block.column);
     float masses[width] = {};
     for (std::size_t k = 0; k < static_cast<std::size_t>(width) && node + k < a.node_count; ++k)
-        masses[k] = a.masses[node + k];
-    m = L::measure_node(m, x, load(a.velocity, block.offset), Number::load(masses),
+        masses[k] = static_cast<float>(a.masses[node + k]);
+    m = L::measure_node(m, x, load(a.velocity, offset), Number::load(masses),
                         spread_vector<Number>(c.gravity_direction));
-    const L::mask free = Number::load(a.inverse_mass + block.offset) > Number(0.0f);
+    const L::mask free = Number::load(a.inverse_mass + offset) > Number(0.0f);
     for (std::size_t k = 0; k < a.collider_count; ++k) {
         const Number gap = L::collider_gap(spread_collider<L::Collider, Number>(a.colliders[k]), x).w;
         m.max_penetration =
@@ -81,7 +79,19 @@ inline L::Measure measured_nodes(const MeasureArguments& a, const Block& block)
     return m;
 }
 
-void sheet_measure(const MeasureArguments& a, std::size_t first_block, std::size_t end_block)
+/// The fixed tree over the first `count` measures of a block: halves are added to each other. Below a pack,
+/// the lanes behind the half are of no meaning.
+inline void merge_block(BlockMeasures& measures, std::size_t count, float* to)
+{
+    for (std::size_t k = count; k < block_size; k += width) measures.set(k, L::measure_of_nothing());
+    for (std::size_t half = block_size / 2; half > 0; half /= 2)
+        for (std::size_t k = 0; k < half; k += width)
+            measures.set(k, L::measure_merge(measures.at(k), measures.at(k + half)));
+    for (int n = 0; n < BlockMeasures::numbers; ++n) to[n] = measures.values[n][0];
+}
+
+__attribute__((flatten)) void sheet_measure(const MeasureArguments& a, std::size_t first_block,
+                                            std::size_t end_block)
 {
     const std::size_t columns = a.layout->columns;
     BlockMeasures measures;
@@ -97,19 +107,41 @@ void sheet_measure(const MeasureArguments& a, std::size_t first_block, std::size
                 const auto r = static_cast<std::ptrdiff_t>(row);
                 const bool interior =
                     column >= 1 && column + width + 2 <= static_cast<std::ptrdiff_t>(columns);
-                measures.set(node - first,
-                             measured_nodes(a, {r, column, offset_of(*a.layout, r, column), interior}));
+                const Block pack{r, column, offset_of(*a.layout, r, column), interior};
+                const Vector x = load(a.position, pack.offset);
+                measures.set(node - first, with_nodes(a, measured_springs(a, pack, x), node, pack.offset, x));
             }
             node = row_end;
         }
-        for (std::size_t k = end - first; k < block_size; k += width)
-            measures.set(k, L::measure_of_nothing());
-        // The fixed tree: halves are added to each other. Below a pack, the lanes behind the half are of no
-        // meaning.
-        for (std::size_t half = block_size / 2; half > 0; half /= 2)
-            for (std::size_t k = 0; k < half; k += width)
-                measures.set(k, L::measure_merge(measures.at(k), measures.at(k + half)));
-        float* to = a.measures + block * BlockMeasures::numbers;
-        for (int n = 0; n < BlockMeasures::numbers; ++n) to[n] = measures.values[n][0];
+        merge_block(measures, end - first, a.measures + block * BlockMeasures::numbers);
+    }
+}
+
+__attribute__((flatten)) void mesh_measure(const MeasureArguments& a, std::size_t first_block,
+                                           std::size_t end_block)
+{
+    const MeasuredSlices& springs = a.springs;
+    BlockMeasures measures;
+    for (std::size_t block = first_block; block < end_block; ++block) {
+        const std::size_t first = block * block_size;
+        const std::size_t end = first + block_size < a.node_count ? first + block_size : a.node_count;
+        for (std::size_t node = first; node < end; node += width) {
+            const std::size_t slice = node / Slices::lanes, lane = node % Slices::lanes;
+            const std::ptrdiff_t offset = offset_of(*a.layout, 0, static_cast<std::ptrdiff_t>(node));
+            const Vector x = load(a.position, offset);
+            L::Measure m = L::measure_of_nothing();
+            for (std::uint32_t r = springs.start[slice]; r < springs.start[slice + 1]; ++r) {
+                const std::size_t row = r * Slices::lanes + lane;
+                const Vector other = gather_vectors(a.state, springs.place + row);
+                const Number rest = Number::load(springs.rest_length + row);
+                L::Measure with = L::measure_spring(m, x, other, rest, Number::load(springs.stiffness + row),
+                                                    Number::load(springs.counts + row) > Number(0.0f));
+                with.elastic_energy =
+                    with.elastic_energy + L::bending_energy(x, other, Number::load(springs.bending + row));
+                m = chosen(rest < Number(0.0f), m, with);
+            }
+            measures.set(node - first, with_nodes(a, m, node, offset, x));
+        }
+        merge_block(measures, end - first, a.measures + block * BlockMeasures::numbers);
     }
 }

@@ -57,4 +57,28 @@ struct Planes {
     AlignedArray<T> x, y, z;
 };
 
+/// Vectors one behind the other, with a fourth number for padding: what is gathered from many places is found
+/// in one line of the cache.
+template <class T>
+class VectorArray {
+public:
+    VectorArray() = default;
+    explicit VectorArray(std::size_t size) : numbers_(4 * size) {}
+    Vector3<T> get(std::size_t i) const
+    {
+        return {numbers_[4 * i], numbers_[4 * i + 1], numbers_[4 * i + 2]};
+    }
+    void set(std::size_t i, Vector3<T> value)
+    {
+        numbers_[4 * i] = value.x;
+        numbers_[4 * i + 1] = value.y;
+        numbers_[4 * i + 2] = value.z;
+    }
+    T* data() { return numbers_.data(); }
+    const T* data() const { return numbers_.data(); }
+
+private:
+    AlignedArray<T> numbers_;
+};
+
 }  // namespace pliant
