@@ -88,7 +88,7 @@ Cloth cloth_of(const ClothModel& model, const Scene& scene, const std::vector<st
         cloth.nodes[vertices[k]] = {vector_of(to_double(model.positions[k]) + model.origin),
                                     {v.x, v.y, v.z},
                                     {},
-                                    static_cast<float>(model.inverse_masses[k])};
+                                    static_cast<float>(model.inverse_mass(k))};
     }
     cloth.springs.reserve(model.spring_count());
     if (model.node_centric()) {

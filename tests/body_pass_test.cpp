@@ -92,7 +92,7 @@ ClothModel shaken_model(const Scene& scene)
     for (std::size_t i = 0; i < model.positions.size(); ++i) {
         Vec3& x = model.positions[i];
         x = {x.x + shake * unit(engine), x.y + shake * unit(engine), x.z + shake * unit(engine)};
-        if (model.inverse_masses[i] > 0) model.velocities[i] = {unit(engine), unit(engine), unit(engine)};
+        if (model.inverse_mass(i) > 0) model.velocities[i] = {unit(engine), unit(engine), unit(engine)};
     }
     return model;
 }
@@ -156,7 +156,7 @@ TEST_P(BodyPassParity, AllBackendsAgree)
     const Results exact = results_of(*make_reference_runner({&model, 1}), model, scene);
     const double rounding = 0x1p-24;
     double least_mass = 1e30;
-    for (const float m : model.masses) least_mass = std::min(least_mass, double{m});
+    for (const double m : model.masses) least_mass = std::min(least_mass, m);
     const double velocity_tolerance = 2 * 2 * 40 * 1000 * rounding * dt / least_mass + 256 * rounding;
     const auto expect_near = [&](Resource resource, double tolerance) {
         ASSERT_EQ(expected.at(resource).size(), exact.at(resource).size());

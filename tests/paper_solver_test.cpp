@@ -60,7 +60,7 @@ void shake(ClothModel& model, float by, float speed, unsigned seed)
     for (std::size_t i = 0; i < model.positions.size(); ++i) {
         Vec3& x = model.positions[i];
         x = {x.x + by * unit(engine), x.y + by * unit(engine), x.z + by * unit(engine)};
-        if (model.inverse_masses[i] > 0)
+        if (model.inverse_mass(i) > 0)
             model.velocities[i] = {speed * unit(engine), speed * unit(engine), speed * unit(engine)};
     }
 }
@@ -158,8 +158,8 @@ TEST(PaperSystem, IsThatOfTheEquations)
     std::vector<double> u(3 * n), right_side(m);
     for (std::size_t i = 0; i < n; ++i) {
         const Vec3d v = to_double(model.velocities[i]) * (1 - 0.1 * dt);
-        const Vec3d next = model.inverse_masses[i] > 0
-                               ? v + (force[i] * model.inverse_masses[i] + Vec3d{0, -9.81, 0}) * dt
+        const Vec3d next = model.inverse_mass(i) > 0
+                               ? v + (force[i] * model.inverse_mass(i) + Vec3d{0, -9.81, 0}) * dt
                                : Vec3d{};
         u[3 * i] = next.x, u[3 * i + 1] = next.y, u[3 * i + 2] = next.z;
     }
@@ -181,7 +181,7 @@ TEST(PaperSystem, IsThatOfTheEquations)
         for (std::size_t t = 0; t < m; ++t) {
             double sum = 0;
             for (std::size_t k = 0; k < 3 * n; ++k)
-                sum += jacobian[s][k] * jacobian[t][k] * model.inverse_masses[k / 3];
+                sum += jacobian[s][k] * jacobian[t][k] * model.inverse_mass(k / 3);
             const Vec3d d = x(constraints[s].i) - x(constraints[s].j);
             if (s == t) sum += scene.paper.compliance * 4 * dot(d, d) / (dt * dt);
             ASSERT_NEAR(of_double[s][t], sum, 1e-12) << s << ' ' << t;

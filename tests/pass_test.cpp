@@ -146,7 +146,7 @@ TEST_P(PassParity, AllBackendsAgree)
     const double force_scale =
         1000 * (0.2 + 2);  // k l + what shaking adds, N: more than any spring here carries
     double least_mass = 1e30;
-    for (const float m : model.masses) least_mass = std::min<double>(least_mass, m);
+    for (const double m : model.masses) least_mass = std::min(least_mass, m);
     constexpr double rounding = 0x1p-24;
     const auto expect_near = [&](Resource resource, double tolerance) {
         const auto &a = expected.at(resource), &b = exact.at(resource);

@@ -27,7 +27,7 @@ inline ClothModel shaken_model(const Scene& scene)
     for (std::size_t i = 0; i < model.positions.size(); ++i) {
         Vec3& x = model.positions[i];
         x = {x.x + shake * unit(engine), x.y + shake * unit(engine), x.z + shake * unit(engine)};
-        if (model.inverse_masses[i] > 0) model.velocities[i] = {unit(engine), unit(engine), unit(engine)};
+        if (model.inverse_mass(i) > 0) model.velocities[i] = {unit(engine), unit(engine), unit(engine)};
     }
     return model;
 }

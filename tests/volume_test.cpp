@@ -77,7 +77,7 @@ Momenta momenta_of(PassRunner& runner, const ClothModel& model, std::uint32_t pa
     runner.read(0, Resource::velocity, parity, v);
     Momenta sum;
     for (std::size_t i = 0; i < model.node_count(); ++i) {
-        const double m = double{model.masses[i]};
+        const double m = model.masses[i];
         const Vec3d p = {double{x[3 * i]}, double{x[3 * i + 1]}, double{x[3 * i + 2]}};
         const Vec3d u = Vec3d{double{v[3 * i]}, double{v[3 * i + 1]}, double{v[3 * i + 2]}} * m;
         sum.linear = sum.linear + u;

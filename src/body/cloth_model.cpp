@@ -214,9 +214,8 @@ void ClothModel::set_masses(const Cloth& cloth)
                                                   " kg, and single precision can work with 1e-18 to 1e18 kg; "
                                                   "change density, node_mass or size");
         }
-    masses.assign(mass.begin(), mass.end());
-    inverse_masses.resize(count);
-    std::transform(mass.begin(), mass.end(), inverse_masses.begin(), [](double m) { return 1 / m; });
+    masses = std::move(mass);
+    pinned.assign(count, false);
 }
 
 void ClothModel::set_pins(const Cloth& cloth)
@@ -229,7 +228,7 @@ void ClothModel::set_pins(const Cloth& cloth)
                         "cloth '" + cloth.name + "': pins[" + std::to_string(p) +
                             "] is a box that contains no node of the cloth; move or enlarge it");
         for (const std::uint32_t node : nodes) {
-            inverse_masses[node] = 0;
+            pinned[node] = true;
             velocities[node] = {};
         }
         if (cloth.pins[p].keyframes.empty()) continue;
@@ -414,7 +413,7 @@ std::span<const Triangle> ClothModel::triangles() const
 double ClothModel::mass() const
 {
     double sum = 0;
-    for (const float m : masses) sum += double{m};
+    for (const double m : masses) sum += m;
     return sum;
 }
 
@@ -448,8 +447,8 @@ double ClothModel::stable_step() const
 
     double omega2 = 0, gamma = parameters.damping;
     for (std::size_t i = 0; i < positions.size(); ++i) {
-        omega2 = std::max(omega2, 2 * stiffness[i] * inverse_masses[i]);
-        gamma = std::max(gamma, parameters.damping + 2 * damping[i] * inverse_masses[i]);
+        omega2 = std::max(omega2, 2 * stiffness[i] * inverse_mass(i));
+        gamma = std::max(gamma, parameters.damping + 2 * damping[i] * inverse_mass(i));
     }
     if (integrator ==
         Integrator::explicit_euler)  // |1 + lambda dt| < 1 while dt < gamma / omega2, gamma >= d

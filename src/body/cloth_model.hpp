@@ -105,7 +105,15 @@ class ClothModel {
 public:
     ClothModel(const Cloth& cloth, const Scene& scene);
 
-    std::uint32_t node_count() const { return static_cast<std::uint32_t>(positions.size()); }
+    std::uint32_t node_count() const { return static_cast<std::uint32_t>(masses.size()); }
+    /// 1/kg; 0 of a pinned node.
+    double inverse_mass(std::size_t node) const { return pinned[node] ? 0 : 1 / masses[node]; }
+    /// Lets go of the positions and velocities at the start, once a backend has them.
+    void forget_start()
+    {
+        std::vector<Vec3>().swap(positions);
+        std::vector<Vec3>().swap(velocities);
+    }
     std::uint64_t spring_count() const { return spring_count_; }
     /// Structural and shear springs: those whose stretch is measured.
     std::uint64_t measured_spring_count() const { return measured_spring_count_; }
@@ -140,10 +148,10 @@ public:
 
     std::vector<AttachedNode> attached;  ///< nodes of moving pins
     std::vector<AttachmentMotion> motions;
-    std::vector<Vec3> positions;         ///< m, at the start
-    std::vector<Vec3> velocities;        ///< m/s, at the start
-    std::vector<float> masses;           ///< kg
-    std::vector<double> inverse_masses;  ///< 1/kg; 0 for a pinned node
+    std::vector<Vec3> positions;   ///< m, at the start
+    std::vector<Vec3> velocities;  ///< m/s, at the start
+    std::vector<double> masses;    ///< kg
+    std::vector<bool> pinned;      ///< by node
     std::optional<SheetShape> sheet;
     ClothParameters parameters;
     /// ACAD whose step is longer than explicit springs can stand: they are stepped with their limits,

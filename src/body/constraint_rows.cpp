@@ -18,7 +18,7 @@ bool may_be_constraint(const ClothModel& cloth, const Spring& spring)
 {
     const LimitedSprings& of_class = cloth.limited[static_cast<std::size_t>(spring.spring_class)];
     // What two pins hold cannot move, and would be an equation without an unknown.
-    const bool held = !(cloth.inverse_masses[spring.i] > 0) && !(cloth.inverse_masses[spring.j] > 0);
+    const bool held = !(cloth.inverse_mass(spring.i) > 0) && !(cloth.inverse_mass(spring.j) > 0);
     return of_class.exists && of_class.beyond > 0 && !held;
 }
 
@@ -107,7 +107,7 @@ void ConstraintRows::list_matrix(const ClothModel& cloth)
         row.assign(1, entry(s));
         const Spring& spring = cloth.springs[spring_of_[s]];
         for (const std::uint32_t node : {spring.i, spring.j}) {
-            if (!(cloth.inverse_masses[node] > 0)) continue;
+            if (!(cloth.inverse_mass(node) > 0)) continue;
             const auto first = static_cast<std::size_t>(topology[node_start + node]);
             const auto end = static_cast<std::size_t>(topology[node_start + node + 1]);
             for (std::size_t e = first; e < end; ++e) {

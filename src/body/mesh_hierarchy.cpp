@@ -260,7 +260,7 @@ struct SolverSprings {
 SolverSprings solver_springs(const ClothModel& cloth)
 {
     SolverSprings list;
-    const auto is_free = [&](std::uint32_t i) { return cloth.inverse_masses[i] > 0; };
+    const auto is_free = [&](std::uint32_t i) { return cloth.inverse_mass(i) > 0; };
     const auto exists = [&](const Spring& s) {
         return cloth.limited[static_cast<std::size_t>(s.spring_class)].exists;
     };
@@ -372,7 +372,7 @@ void Hierarchy::build_mesh(const ClothModel& cloth)
             sides.push_back({s.i, s.j, e});
             sides.push_back({s.j, s.i, e});
         } else {
-            held.push_back(cloth.inverse_masses[s.i] > 0 ? Side{s.i, s.j, e} : Side{s.j, s.i, e});
+            held.push_back(cloth.inverse_mass(s.i) > 0 ? Side{s.i, s.j, e} : Side{s.j, s.i, e});
         }
     }
     level->row_start = add_sides(*level, sides);

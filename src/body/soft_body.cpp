@@ -97,7 +97,7 @@ void ClothModel::finish_body(const Cloth& cloth)
     if (!body->weights.empty()) {
         double sum = 0;
         for (std::size_t i = 0; i < positions.size(); ++i)
-            if (inverse_masses[i] > 0) sum += double{body->weights[i]};
+            if (inverse_mass(i) > 0) sum += double{body->weights[i]};
         if (!(sum > 0) && body->constrained)
             throw Error(ErrorKind::bad_input,
                         "body '" + cloth.name +
@@ -161,7 +161,7 @@ void ClothModel::set_loads(const Cloth& cloth)
         for (std::uint32_t i = 0; i < positions.size(); ++i) {
             const Vec3d p = to_double(positions[i]) + origin;
             const Vec3d &least = given.box.min, &most = given.box.max;
-            if (inverse_masses[i] > 0 && p.x >= least.x && p.x <= most.x && p.y >= least.y && p.y <= most.y &&
+            if (inverse_mass(i) > 0 && p.x >= least.x && p.x <= most.x && p.y >= least.y && p.y <= most.y &&
                 p.z >= least.z && p.z <= most.z) {
                 nodes.push_back(i);
                 middle = middle + to_double(positions[i]);
@@ -236,7 +236,7 @@ void ClothModel::take(const ClothModel& other)
     if (weighted) ours.weights.resize(positions.size(), 1.0f);
     append(velocities, other.velocities);
     append(masses, other.masses);
-    append(inverse_masses, other.inverse_masses);
+    append(pinned, other.pinned);
 
     const auto triangle = static_cast<std::uint32_t>(triangles_.size());
     for (const Triangle& t : other.triangles_) triangles_.push_back({t[0] + node, t[1] + node, t[2] + node});

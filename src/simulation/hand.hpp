@@ -35,8 +35,7 @@ inline bool set_mass(ClothModel& model, Hand& hand, double step_length)
     if (hand.step == step_length) return false;
     hand.step = step_length;
     const double mass = step_length > 0 ? hand.mass_in(step_length) : hand.mass;
-    model.masses[hand.node] = static_cast<float>(mass);
-    model.inverse_masses[hand.node] = 1 / mass;
+    model.masses[hand.node] = mass;
     return true;
 }
 

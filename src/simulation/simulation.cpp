@@ -97,6 +97,7 @@ public:
             start_runner(options);
         }
         take_measures();
+        for (ClothModel& model : models) model.forget_start();
     }
 
     /// A model of each cloth, and of soft bodies that can be stepped as one.
@@ -105,7 +106,7 @@ public:
         models.reserve(scene.cloth_count());
         for (std::size_t c = 0; c < scene.cloth_count(); ++c) {
             ClothModel model(scene.cloth(c), scene);
-            ClothPlace place{static_cast<std::uint32_t>(models.size()), 0, model.node_count(), 0,
+            ClothPlace place{static_cast<std::uint32_t>(models.size()), 0, model.node_count(), 0, 0.0f,
                              std::exchange(model.node_of_vertex, {})};
             if (model.is_body()) report.bodies.push_back({c});
             const auto host = std::find_if(models.begin(), models.end(),
@@ -120,6 +121,10 @@ public:
             }
             places.push_back(std::move(place));
         }
+        for (ClothPlace& place : places)
+            for (const Vec3& x :
+                 std::span(models[place.model].positions).subspan(place.first_node, place.node_count))
+                place.farthest = std::max({place.farthest, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
     }
 
     /// Makes the runner and lets it measure the start.
@@ -340,8 +345,8 @@ public:
         const auto at = static_cast<std::uint32_t>(place.node(node));
         const bool same = hand && hand->model == place.model && hand->node == at;
         if (!same) release();
-        if (!(model.inverse_masses[at] > 0)) return;  // pinned
-        if (!same) hand = Hand{.model = place.model, .node = at, .mass = double{model.masses[at]}};
+        if (!(model.inverse_mass(at) > 0)) return;  // pinned
+        if (!same) hand = Hand{.model = place.model, .node = at, .mass = model.masses[at]};
         hand->target = target - model.origin;
         if (hand->stiffness != stiffness || hand->damping != damping) hold(0);
         hand->stiffness = stiffness;
@@ -389,7 +394,7 @@ public:
             std::vector<bool> moved(x.size(), false);
             for (const AttachedNode& a : models[m].attached) moved[a.node] = true;
             for (std::size_t i = 0; i < x.size(); ++i)
-                if (!(models[m].inverse_masses[i] > 0) && !moved[i]) v[i] = {};  // a pin that stands still
+                if (!(models[m].inverse_mass(i) > 0) && !moved[i]) v[i] = {};  // a pin that stands still
             runner->write(m, x, v);
         }
         report.simulated_seconds = state.time;
@@ -573,6 +578,7 @@ public:
     /// Where a cloth or body of the scene lies in the models.
     struct ClothPlace {
         std::uint32_t model = 0, first_node = 0, node_count = 0, part = 0;
+        float farthest = 0;                         ///< m, the largest coordinate at the start
         std::vector<std::uint32_t> node_of_vertex;  ///< against first_node; empty where they are the same
         std::size_t node(std::size_t vertex) const
         {
@@ -670,7 +676,7 @@ std::vector<PinListing> Simulation::pins(std::size_t cloth) const
     std::vector<PinListing> listing;
     for (std::uint32_t k = 0; k < place.node_count; ++k) {
         const auto node = static_cast<std::uint32_t>(place.node(k));
-        if (model.inverse_masses[node] > 0) continue;
+        if (model.inverse_mass(node) > 0) continue;
         const bool moves = std::any_of(model.attached.begin(), model.attached.end(),
                                        [&](const AttachedNode& a) { return a.node == node; });
         listing.push_back({k, moves});
@@ -776,10 +782,7 @@ std::string Simulation::resolution_warning() const
     for (std::size_t c = 0; c < implementation_->places.size(); ++c) {
         const auto& place = implementation_->places[c];
         const ClothModel& model = implementation_->models[place.model];
-        double farthest = 0;
-        for (const Vec3& x : std::span(model.positions).subspan(place.first_node, place.node_count))
-            farthest =
-                std::max({farthest, std::abs(double{x.x}), std::abs(double{x.y}), std::abs(double{x.z})});
+        const double farthest = double{place.farthest};
         const double shortest = model.shortest_rest_length();
         if (farthest * half_ulp > noticeable * shortest) {
             char text[256];

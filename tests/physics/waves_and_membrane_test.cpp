@@ -27,7 +27,7 @@ double frequency(ClothModel model, double stretch, int waves_across, int waves_a
             const Vec3d x = to_double(model.positions[node]);
             model.positions[node] = to_float({waves_across > 0 ? x.x * stretch : x.x, x.y, x.z * stretch});
             // So small that the tension does not change: slopes of some 1e-4.
-            if (model.inverse_masses[node] > 0)
+            if (model.inverse_mass(node) > 0)
                 model.velocities[node] = {0, static_cast<float>(1e-3 * shape[node]), 0};
         }
     const auto runner = make_reference_runner({&model, 1});

@@ -227,7 +227,7 @@ void PlainBody<T>::ring_step(const Call& call, PlainCloth<T>& cloth, const StepC
         while (node >= model->parts[part].first_node + model->parts[part].node_count) ++part;
         const std::size_t offset = cloth.layout.offset(node);
         const RingSums<T> ring(cloth, c, call.parity, node);
-        Vector force = ring.force + cloth.external_force.get(offset);
+        Vector force = ring.force + cloth.external_force_at(offset);
         if (model->has_pressure)
             force = force + ring.gradient * static_cast<T>(goal_of(call, c, part).pressure);
         cloth.finish_step(call, c, colliders, {node, 0, node, offset}, force);
@@ -246,7 +246,7 @@ void PlainBody<T>::gather(const Call& call, PlainCloth<T>& cloth, const StepCons
         for (std::uint32_t k = 0; k < block.count; ++k) {
             const std::size_t node = block.first + k, offset = cloth.layout.offset(node);
             const RingSums<T> ring(cloth, c, call.parity, node);
-            Vector force = ring.force + cloth.external_force.get(offset);
+            Vector force = ring.force + cloth.external_force_at(offset);
             if (model->has_pressure) force = force + ring.gradient * pressure;
             const T w = cloth.inverse_mass[offset];
             const Vector next =

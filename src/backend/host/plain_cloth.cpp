@@ -45,17 +45,15 @@ template <class T>
 PlainCloth<T>::PlainCloth(const ClothModel& cloth)
     : model(cloth),
       layout(cloth.sheet ? cloth.sheet->rows : 1, cloth.sheet ? cloth.sheet->columns : cloth.node_count()),
-      external_force(layout.size),
       spring_force(cloth.springs.size()),
-      normal(layout.size),
       inverse_mass(layout.size),
-      strain(layout.size),
       multiplier(cloth.hierarchy.empty() ? 0 : layout.size),
       tree(cloth.node_count()),
       body(cloth, layout)
 {
     for (auto* planes : {&position[0], &position[1], &velocity[0], &velocity[1]})
         *planes = Planes<T>(layout.size);
+    if (model.has_external_force()) external_force = Planes<T>(layout.size);
     if (model.integrator == Integrator::runge_kutta_4)
         position_slope = velocity_slope = Planes<T>(layout.size);
     measures.assign(tree.value_count, L::measure_of_nothing());
@@ -77,9 +75,18 @@ void PlainCloth<T>::write(std::span<const Vec3> positions, std::span<const Vec3>
 }
 
 template <class T>
+void PlainCloth<T>::make_room_for(Pass pass)
+{
+    if ((pass == Pass::sheet_normal || pass == Pass::mesh_normal) && normal.x.empty())
+        normal = Planes<T>(layout.size);
+    if ((pass == Pass::sheet_strain || pass == Pass::list_strain) && strain.empty())
+        strain = AlignedArray<T>(layout.size);
+}
+
+template <class T>
 void PlainCloth<T>::take_mass(std::size_t node)
 {
-    inverse_mass[layout.offset(node)] = static_cast<T>(model.inverse_masses[node]);
+    inverse_mass[layout.offset(node)] = static_cast<T>(model.inverse_mass(node));
 }
 
 template <class T>
@@ -197,7 +204,7 @@ void PlainCloth<T>::sheet_step(const Call& call, const StepConstants<T>& c,
                 force + L::spring_force(x.get(place.offset), x.get(other), v.get(place.offset), v.get(other),
                                         c.rest_lengths[neighbour.rest], c.stiffness[k], c.damping[k]);
         });
-        finish_step(call, c, colliders, place, force + external_force.get(place.offset));
+        finish_step(call, c, colliders, place, force + external_force_at(place.offset));
     });
 }
 
@@ -253,7 +260,7 @@ void PlainCloth<T>::list_step(const Call& call, const StepConstants<T>& c,
             const Vector f = spring_force.get(neighbour.spring);
             force = place.node < neighbour.node ? force + f : force - f;
         }
-        finish_step(call, c, colliders, place, force + external_force.get(place.offset));
+        finish_step(call, c, colliders, place, force + external_force_at(place.offset));
     });
 }
 
@@ -272,7 +279,7 @@ void PlainCloth<T>::stage_step(const Call& call, const StepConstants<T>& c,
             const Vector f = spring_force.get(neighbour.spring);
             force = place.node < neighbour.node ? force + f : force - f;
         }
-        force = force + external_force.get(place.offset);
+        force = force + external_force_at(place.offset);
         const std::size_t o = place.offset;
         const T w = inverse_mass[o];
         const Vector v = velocity[state].get(o);
@@ -287,7 +294,7 @@ void PlainCloth<T>::stage_step(const Call& call, const StepConstants<T>& c,
             velocity_slope.set(o, v_sum);
         }
         Motion after = {L::stage_next(stage, start.position, x_sum, moved),
-                      L::settled_velocity(L::stage_next(stage, start.velocity, v_sum, change))};
+                        L::settled_velocity(L::stage_next(stage, start.velocity, v_sum, change))};
         if (is_last && !(w > T(0))) after.velocity = zero;
         if (is_last)
             for (const Collider& collider : colliders)
@@ -485,24 +492,29 @@ void PlainCloth<T>::read(Resource resource, std::uint32_t parity, std::vector<fl
 {
     values.clear();
     const auto push = [&](auto... numbers) { (values.push_back(static_cast<float>(numbers)), ...); };
-    const auto push_planes = [&](const Planes<T>& planes, std::size_t count, bool per_node) {
-        values.reserve(3 * count);
-        for (std::size_t i = 0; i < count; ++i) {
-            const Vector a = planes.get(per_node ? layout.offset(i) : i);
+    const std::size_t nodes = model.node_count();
+    const auto push_planes = [&](const Planes<T>& planes) {
+        values.reserve(3 * nodes);
+        for (std::size_t i = 0; i < nodes; ++i) {
+            const Vector a = planes.x.empty() ? Vector{T(0), T(0), T(0)} : planes.get(layout.offset(i));
             push(a.x, a.y, a.z);
         }
     };
-    const std::size_t nodes = model.node_count();
     switch (resource) {
-        case Resource::position: return push_planes(position[parity], nodes, true);
-        case Resource::next_position: return push_planes(position[1 - parity], nodes, true);
-        case Resource::velocity: return push_planes(velocity[parity], nodes, true);
-        case Resource::next_velocity: return push_planes(velocity[1 - parity], nodes, true);
-        case Resource::external_force: return push_planes(external_force, nodes, true);
-        case Resource::spring_force: return push_planes(spring_force, model.springs.size(), false);
-        case Resource::normal: return push_planes(normal, nodes, true);
+        case Resource::position: return push_planes(position[parity]);
+        case Resource::next_position: return push_planes(position[1 - parity]);
+        case Resource::velocity: return push_planes(velocity[parity]);
+        case Resource::next_velocity: return push_planes(velocity[1 - parity]);
+        case Resource::external_force: return push_planes(external_force);
+        case Resource::spring_force:
+            for (std::size_t s = 0; s < model.springs.size(); ++s) {
+                const Vector a = spring_force.get(s);
+                push(a.x, a.y, a.z);
+            }
+            return;
+        case Resource::normal: return push_planes(normal);
         case Resource::strain:
-            for (std::size_t i = 0; i < nodes; ++i) push(strain[layout.offset(i)]);
+            for (std::size_t i = 0; i < nodes; ++i) push(strain.empty() ? T(0) : strain[layout.offset(i)]);
             return;
         case Resource::measures:
             for (const Measure& m : measures)

@@ -74,6 +74,13 @@ public:
     /// Runs the part [begin, end) of a call.
     void run(const Call& call, const StepConstants<T>& constants, std::span<const Collider> colliders,
              std::size_t begin, std::size_t end);
+    /// Normals and strains are kept from the first time on that somebody looks at them; not for more than
+    /// one thread.
+    void make_room_for(Pass pass);
+    Vector external_force_at(std::size_t offset) const
+    {
+        return external_force.x.empty() ? Vector{T(0), T(0), T(0)} : external_force.get(offset);
+    }
     void read(Resource resource, std::uint32_t parity, std::vector<float>& values) const;
     /// See PassRunner.
     void write(std::span<const Vec3> positions, std::span<const Vec3> velocities);
@@ -83,10 +90,10 @@ public:
     const ClothModel& model;
     NodeLayout layout;
     Planes<T> position[2], velocity[2];
-    Planes<T> external_force;                  ///< zero, and never written, without air
-    Planes<T> spring_force;                    ///< per spring
-    Planes<T> position_slope, velocity_slope;  ///< of the integrators with stages
-    Planes<T> normal;
+    Planes<T> external_force;                          ///< none without any
+    VectorArray<T> spring_force;                       ///< per spring
+    Planes<T> position_slope, velocity_slope;          ///< of the integrators with stages
+    Planes<T> normal;                                  ///< none before make_room_for
     AlignedArray<T> inverse_mass, strain, multiplier;  ///< multiplier: of the constraint methods
     std::vector<Measure> measures;
     MeasureTree tree;

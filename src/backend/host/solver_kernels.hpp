@@ -168,7 +168,11 @@ struct SolverKernels {
     vec3 node_velocity(int o) const { return load_planes(context.velocity, o); }
     vec3 node_next_position(int o) const { return load_planes(context.next_position, o); }
     vec3 node_next_velocity(int o) const { return load_planes(context.next_velocity, o); }
-    vec3 node_force(int o) const { return load_planes(context.external_force, o); }
+    vec3 node_force(int o) const
+    {
+        const real zero = real(0.0f);
+        return context.external_force.x ? load_planes(context.external_force, o) : vec3(zero, zero, zero);
+    }
     real node_inverse_mass(int o) const { return Lanes<T>::load(context.inverse_mass + o); }
     real node_mass(int o) const { return Lanes<T>::load(context.mass + o); }
     void node_end(int o, vec3 x, vec3 v) const

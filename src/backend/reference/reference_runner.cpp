@@ -45,6 +45,7 @@ public:
                 solver.run(call, solver.context(call, cloth, solver_constants[call.cloth], colliders), 0,
                            solver.size_of(call));
             } else {
+                cloth.make_room_for(call.pass);
                 cloth.run(call, constants[call.cloth], colliders, 0, cloth.size_of(call));
             }
             const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;

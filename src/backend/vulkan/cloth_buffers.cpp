@@ -46,17 +46,19 @@ void ClothBuffers::write(const Device& device, std::span<const Vec3> positions,
 {
     std::vector<Float4> values(positions.size());
     for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] = float4(positions[i], static_cast<float>(model_->inverse_masses[i]));
+        values[i] = float4(positions[i], static_cast<float>(model_->inverse_mass(i)));
     for (const Buffer& buffer : position_)
         device.write(buffer, values.data(), values.size() * sizeof(Float4));
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = float4(velocities[i], model_->masses[i]);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = float4(velocities[i], static_cast<float>(model_->masses[i]));
     for (const Buffer& buffer : velocity_)
         device.write(buffer, values.data(), values.size() * sizeof(Float4));
 }
 
 void ClothBuffers::take_mass(const Device& device, std::uint32_t node)
 {
-    const float mass = model_->masses[node], inverse = static_cast<float>(model_->inverse_masses[node]);
+    const float mass = static_cast<float>(model_->masses[node]),
+                inverse = static_cast<float>(model_->inverse_mass(node));
     const std::size_t at = node * sizeof(Float4) + offsetof(Float4, w);
     for (const Buffer& buffer : position_) device.write(buffer, &inverse, sizeof inverse, at);
     for (const Buffer& buffer : velocity_) device.write(buffer, &mass, sizeof mass, at);
@@ -79,14 +81,13 @@ ClothBuffers::ClothBuffers(const Device& device, const ClothModel& model,
         return filled(device, values.data(), nodes * sizeof(Float4), name);
     };
     for (std::size_t i = 0; i < nodes; ++i)
-        values[i] = float4(model.positions[i], static_cast<float>(model.inverse_masses[i]));
+        values[i] = float4(model.positions[i], static_cast<float>(model.inverse_mass(i)));
     for (auto& buffer : position_) buffer = node_buffer("position");
-    for (std::size_t i = 0; i < nodes; ++i) values[i] = float4(model.velocities[i], model.masses[i]);
+    for (std::size_t i = 0; i < nodes; ++i)
+        values[i] = float4(model.velocities[i], static_cast<float>(model.masses[i]));
     for (auto& buffer : velocity_) buffer = node_buffer("velocity");
 
     parameters_ = device.make_buffer(sizeof(Parameters), Usage::eUniformBuffer, Memory::upload, "parameters");
-    normal_ = device.make_buffer(nodes * sizeof(Float4), Usage::eStorageBuffer, Memory::device, "normal");
-    strain_ = device.make_buffer(nodes * sizeof(float), Usage::eStorageBuffer, Memory::device, "strain");
     measures_ = device.make_buffer(tree_.value_count * 2 * sizeof(Float4), Usage::eStorageBuffer,
                                    Memory::device, "measures");
     root_ = device.make_buffer(2 * sizeof(Float4), Usage::eTransferDst, Memory::readback, "measured total");
@@ -144,7 +145,7 @@ ClothBuffers::ClothBuffers(const Device& device, const ClothModel& model,
             {Binding::position_out, &position_[1 - parity]},
             {Binding::velocity_out, &velocity_[1 - parity]},
             // Bound in any case, since the step reads it when there is air.
-            {Binding::external_force, model.has_external_force() ? &external_force_ : &normal_},
+            {Binding::external_force, model.has_external_force() ? &external_force_ : &measures_},
             {Binding::springs, &springs_},
             {Binding::spring_rest_class, &spring_rest_class_},
             {Binding::neighbour_start, &neighbour_start_},
@@ -153,8 +154,6 @@ ClothBuffers::ClothBuffers(const Device& device, const ClothModel& model,
             {Binding::triangle_start, &triangle_start_},
             {Binding::node_triangles, &node_triangles_},
             {Binding::spring_force, &spring_force_},
-            {Binding::normal, &normal_},
-            {Binding::strain, &strain_},
             {Binding::measures, &measures_},
             {Binding::solver, &solver_.constants()},
             {Binding::solver_arena, &solver_.arena()},
@@ -169,15 +168,32 @@ ClothBuffers::ClothBuffers(const Device& device, const ClothModel& model,
             {Binding::body_sums, &body_.sums()},
             {Binding::slopes, &slopes_},
         };
-        for (const auto& [binding, buffer] : bound) {
-            if (buffer->size == 0) continue;  // this kind of cloth has none
-            const auto descriptor = buffer->descriptor();
-            device.handle().updateDescriptorSets(
-                vk::WriteDescriptorSet(*sets_[parity], static_cast<std::uint32_t>(binding), 0, 1,
-                                       type_of(binding), nullptr, &descriptor),
-                {});
-        }
+        for (const auto& [binding, buffer] : bound)
+            if (buffer->size > 0) bind(device, parity, binding, *buffer);  // else this kind of cloth has none
     }
+}
+
+void ClothBuffers::bind(const Device& device, std::uint32_t parity, Binding binding, const Buffer& buffer)
+{
+    const auto descriptor = buffer.descriptor();
+    device.handle().updateDescriptorSets(
+        vk::WriteDescriptorSet(*sets_[parity], static_cast<std::uint32_t>(binding), 0, 1, type_of(binding),
+                               nullptr, &descriptor),
+        {});
+}
+
+bool ClothBuffers::make_room_for(const Device& device, Pass pass)
+{
+    const bool normal = pass == Pass::sheet_normal || pass == Pass::mesh_normal;
+    const bool strain = pass == Pass::sheet_strain || pass == Pass::list_strain;
+    if (!normal && !strain) return false;
+    Buffer& buffer = normal ? normal_ : strain_;
+    if (buffer.size > 0) return false;
+    const std::size_t bytes = model_->node_count() * (normal ? sizeof(Float4) : sizeof(float));
+    buffer = device.make_buffer(bytes, Usage::eStorageBuffer, Memory::device, normal ? "normal" : "strain");
+    for (std::uint32_t parity = 0; parity < 2; ++parity)
+        bind(device, parity, normal ? Binding::normal : Binding::strain, buffer);
+    return true;
 }
 
 void ClothBuffers::bind_colliders(const Device& device, const Buffer& colliders)

@@ -26,6 +26,9 @@ public:
     const MeasureTree& tree() const { return tree_; }
     vk::DescriptorSet set(std::uint32_t parity) const { return *sets_[parity]; }
     void bind_colliders(const Device& device, const Buffer& colliders);
+    /// Normals and strains are kept from the first time on that somebody looks at them. True when that is
+    /// now: what was recorded with these sets must then be recorded anew.
+    bool make_room_for(const Device& device, Pass pass);
     /// Where the host's rows of a frame begin.
     struct FrameRows {
         std::uint32_t colliders = 0;                ///< in colliders, of this cloth's origin
@@ -49,6 +52,7 @@ public:
     const BodyBuffers& body() const { return body_; }
 
 private:
+    void bind(const Device& device, std::uint32_t parity, Binding binding, const Buffer& buffer);
     Buffer filled(const Device& device, const void* data, std::size_t bytes, const char* name) const;
 
     const ClothModel* model_;

@@ -212,6 +212,11 @@ public:
     {
         const ClothBuffers& buffers = cloths_[cloth];
         const std::size_t count = buffers.entry_count(resource);
+        const bool drawn = resource == Resource::normal || resource == Resource::strain;
+        if (drawn && buffers.buffer(resource, parity).size == 0) {  // nobody has looked yet
+            values.assign((resource == Resource::normal ? 3 : 1) * count, 0.0f);
+            return;
+        }
         if (resource == Resource::multiplier && buffers.model().hierarchy.empty()) {
             values.assign(count, 0.0f);
             return;
@@ -370,7 +375,12 @@ private:
     void replay(const Program& program)
     {
         auto found = recordings_.find(program.id);
-        if (found == recordings_.end() && recordings_.size() >= most_recordings) recordings_.clear();
+        if (found == recordings_.end()) {
+            bool sets_changed = false;
+            for (const Call& call : program.calls)
+                sets_changed |= cloths_[call.cloth].make_room_for(*device_, call.pass);
+            if (sets_changed || recordings_.size() >= most_recordings) recordings_.clear();
+        }
         if (found == recordings_.end()) found = recordings_.emplace(program.id, record(program)).first;
         const Recording& recording = found->second;
         device_->run(recording.commands);
