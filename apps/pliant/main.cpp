@@ -10,6 +10,7 @@
 #include "pliant/error.hpp"
 #include "pliant/version.hpp"
 #include "reproduce/reproduce_command.hpp"
+#include "user_folders.hpp"
 
 namespace {
 
@@ -46,6 +47,10 @@ void add_machine(CLI::App& app, SimulationOptions& options)
            "Threads of the cpu backend; the result does not depend on it (default: one for each core)")
         ->check(CLI::Range(1, 1024))
         ->type_name("N");
+    options.pipeline_folder = cache_folder();
+    app.add_flag_callback(
+        "--no-pipeline-cache", [&options] { options.pipeline_folder.clear(); },
+        "Compile the device's shaders anew, and keep nothing of them in the user's cache folder");
 }
 void add_validation(CLI::App& app, SimulationOptions& options)
 {

@@ -1,13 +1,16 @@
 #include "painter.hpp"
 
 #include "backend/vulkan/device_state.hpp"
+#include "user_folders.hpp"
 
 namespace pliant::tool {
 
 Painter::Painter(Simulation& simulation) : simulation_(simulation)
 {
-    device_ = simulation_.device_state() ? simulation_.device_state()->device()
-                                         : std::make_shared<vulkan::Device>(vulkan::DeviceOptions{});
+    device_ =
+        simulation_.device_state()
+            ? simulation_.device_state()->device()
+            : std::make_shared<vulkan::Device>(vulkan::DeviceOptions{.pipeline_folder = cache_folder()});
     renderer_ = std::make_unique<Renderer>(device_, simulation_.scene(), topologies_of(simulation_));
 }
 

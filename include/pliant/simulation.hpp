@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
@@ -45,6 +46,9 @@ struct SimulationOptions {
         {};  ///< cpu: "sse2", "avx2", "avx512"; empty chooses the widest of this machine
     JobSystem* job_system = nullptr;  ///< cpu: borrowed, must outlive the simulation
     bool validation = false;          ///< Vulkan: with the validation layer; its messages count in `report()`
+    /// Vulkan: a folder in which compiled pipelines are kept between runs, made when it is missing; empty
+    /// keeps none. What is damaged there, or of another driver, is ignored.
+    std::filesystem::path pipeline_folder = {};
     /// Vulkan, for Pliant's own viewer: a device that is open already, instead of `device` and `validation`.
     std::shared_ptr<vulkan::Device> shared_device = nullptr;
 };

@@ -143,7 +143,7 @@ vk::raii::Pipeline make_pipeline(const Device& device, vk::PipelineLayout layout
     const std::array<vk::DynamicState, 2> changing{vk::DynamicState::eViewport, vk::DynamicState::eScissor};
     const vk::PipelineDynamicStateCreateInfo dynamic({}, changing);
 
-    return {device.handle(), nullptr,
+    return {device.handle(), device.pipelines().cache(),
             vk::GraphicsPipelineCreateInfo({}, stages, &input, &assembly, nullptr, &viewport, &raster,
                                            &multisample, &depth, &blending, &dynamic, layout, pass.pass, 0)};
 }

@@ -198,6 +198,7 @@ void Device::open(const DeviceOptions& options)
     queue_ = device_.getQueue(queue_family_, 0);
     pool_ = {device_, {vk::CommandPoolCreateFlagBits::eResetCommandBuffer, queue_family_}};
     fence_ = {device_, vk::FenceCreateInfo{}};
+    pipelines_ = {physical_, device_, options.pipeline_folder};
 }
 
 std::uint64_t Device::all_validation_messages() { return all_messages; }

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <span>
@@ -11,6 +12,8 @@
 #include <vector>
 
 #include <vulkan/vulkan_raii.hpp>
+
+#include "backend/vulkan/pipeline_store.hpp"
 
 namespace pliant::vulkan {
 
@@ -20,6 +23,7 @@ struct DeviceOptions {
     /// Of a window: instance extensions that its surface needs; with any, the device can present, too.
     std::vector<const char*> surface_extensions = {};
     bool validation = false;  ///< with VK_LAYER_KHRONOS_validation, whose messages are counted and printed
+    std::filesystem::path pipeline_folder = {};  ///< see SimulationOptions
 };
 
 /// What `pliant info` shows of a physical device.
@@ -59,6 +63,7 @@ class Device {
 public:
     /// Throws Error(device_failure) when there is no such device, naming what to install or choose.
     explicit Device(const DeviceOptions& options);
+    ~Device() { pipelines_.keep(); }
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
 
@@ -84,6 +89,8 @@ public:
     std::uint32_t memory_type(std::uint32_t allowed_types, vk::MemoryPropertyFlags wanted,
                               vk::MemoryPropertyFlags preferred = {}) const;
     vk::raii::ShaderModule make_shader(std::span<const std::uint32_t> code) const;
+    /// For making pipelines, and then keeping what is new.
+    PipelineStore& pipelines() const { return pipelines_; }
 
     /// A primary command buffer that can be submitted again and again.
     vk::raii::CommandBuffer make_commands() const;
@@ -123,6 +130,7 @@ private:
     vk::raii::CommandPool pool_{nullptr};
     vk::raii::Fence fence_{nullptr};
     vk::PhysicalDeviceMemoryProperties memory_properties_;
+    mutable PipelineStore pipelines_;
     mutable std::map<std::string, std::shared_ptr<void>> kept_;
 };
 

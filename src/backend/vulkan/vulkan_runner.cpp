@@ -135,8 +135,10 @@ public:
                 device.make_shader(with_float_controls(with_exact_arithmetic(compute_shader(pass)), modes));
             const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module,
                                                           "main");
-            pipelines_[p] = {device.handle(), nullptr, vk::ComputePipelineCreateInfo({}, stage, *layout)};
+            pipelines_[p] = {device.handle(), device.pipelines().cache(),
+                             vk::ComputePipelineCreateInfo({}, stage, *layout)};
         }
+        device.pipelines().keep();
     }
     vk::Pipeline operator[](Pass pass) const { return *pipelines_[static_cast<std::size_t>(pass)]; }
 
@@ -150,7 +152,9 @@ private:
 std::shared_ptr<Device> device_for(const SimulationOptions& options)
 {
     if (options.shared_device) return options.shared_device;
-    return std::make_shared<Device>(DeviceOptions{.index = options.device, .validation = options.validation});
+    return std::make_shared<Device>(DeviceOptions{.index = options.device,
+                                                  .validation = options.validation,
+                                                  .pipeline_folder = options.pipeline_folder});
 }
 
 class Runner final : public VulkanRunner {

@@ -1,0 +1,30 @@
+// Compiled pipelines that are kept in a file between runs, so that a driver compiles each shader once.
+#pragma once
+
+#include <filesystem>
+
+#include <vulkan/vulkan_raii.hpp>
+
+namespace pliant::vulkan {
+
+class PipelineStore {
+public:
+    /// Keeps nothing between runs.
+    PipelineStore() = default;
+    /// A file for this device and driver in `folder`, which need not exist yet; without a name, none.
+    /// A file that is damaged, or of another driver, is as good as none: nothing here ever throws for a file.
+    PipelineStore(const vk::raii::PhysicalDevice& physical, const vk::raii::Device& device,
+                  const std::filesystem::path& folder);
+
+    /// For making pipelines; they are found in it, and left in it.
+    const vk::raii::PipelineCache& cache() const { return cache_; }
+    /// Writes the file if there are more pipelines than it has.
+    void keep() noexcept;
+
+private:
+    std::filesystem::path file_;
+    std::size_t kept_size_ = 0;  ///< bytes of what the file holds
+    vk::raii::PipelineCache cache_{nullptr};
+};
+
+}  // namespace pliant::vulkan
