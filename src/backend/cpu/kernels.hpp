@@ -87,7 +87,8 @@ struct SpringArguments {
     const float* state;  ///< records
     float* force;        ///< vectors
     const std::uint32_t *first, *second;
-    const float *rest_length, *stiffness, *damping, *bending;
+    const float *rest_length, *stiffness, *damping;
+    const float* bending;  ///< null where all are 0
 };
 
 /// Rows of 16 lanes: the k-th entry of each of 16 neighbouring nodes or fans. Slice s has the rows from

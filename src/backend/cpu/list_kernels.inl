@@ -127,7 +127,8 @@ __attribute__((flatten)) void spring_forces(const SpringArguments& a, std::size_
             const std::size_t s = from + k;
             const Vector spring = sweeps.force(k, Number::load(a.rest_length + s),
                                                Number::load(a.stiffness + s), Number::load(a.damping + s));
-            const Vector bending = L::bending_force(zero, sweeps.difference(k), Number::load(a.bending + s));
+            const Number weight = a.bending ? Number::load(a.bending + s) : Number(0.0f);
+            const Vector bending = L::bending_force(zero, sweeps.difference(k), weight);
             store_vectors<vector_size>(a.force + s * vector_size, spring + bending, width);
         }
     }

@@ -15,6 +15,7 @@ SpringList::SpringList(PlainCloth<float>& cloth)
     const auto place_of = [&](std::size_t node) {
         return static_cast<std::uint32_t>(layout.offset(node) * state_size);
     };
+    bool bends = false;
     for (const Spring& spring : model.springs) {
         const auto k = static_cast<std::size_t>(spring.spring_class);
         first_.push_back(place_of(spring.i));
@@ -24,12 +25,14 @@ SpringList::SpringList(PlainCloth<float>& cloth)
         stiffness_.push_back(static_cast<float>(model.parameters.stiffness[k]) * scale);
         damping_.push_back(static_cast<float>(model.parameters.spring_damping[k]) * scale);
         bending_.push_back(static_cast<float>(spring.bending));
+        bends = bends || spring.bending != 0;
     }
     const std::size_t size = (first_.size() + pack - 1) / pack * pack;
     const std::uint32_t somewhere = place_of(0);
     first_.resize(size, somewhere);
     second_.resize(size, somewhere);
     for (auto* numbers : {&rest_length_, &stiffness_, &damping_, &bending_}) numbers->resize(size, 0.0f);
+    if (!bends) std::vector<float>().swap(bending_);
     cloth.spring_force = VectorArray<float>(size + 1);  // the last one stays 0: for lanes with fewer springs
 
     start_.push_back(0);
@@ -60,7 +63,8 @@ void SpringList::find_forces(const Call& call, PlainCloth<float>& cloth, const S
                              const Kernels& kernels, std::size_t begin, std::size_t end) const
 {
     kernels.spring_forces({records.at(call.parity), cloth.spring_force.data(), first_.data(), second_.data(),
-                           rest_length_.data(), stiffness_.data(), damping_.data(), bending_.data()},
+                           rest_length_.data(), stiffness_.data(), damping_.data(),
+                           bending_.empty() ? nullptr : bending_.data()},
                           begin, end);
 }
 
