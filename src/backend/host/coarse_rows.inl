@@ -1,9 +1,10 @@
-// sheet_coarsen row by row: what lies half way, rows of the finer level with columns of this one, is made once
-// for the three rows of this level that use it. Part of SolverKernels (solver_kernels.hpp), for packs.
+// sheet_coarsen row by row: what lies half way, rows of the finer level with columns of this one, is made
+// once for the three rows of this level that use it. Part of SolverKernels (solver_kernels.hpp), for packs.
 
 /// Columns of this level at a time, and a pack and more on both sides of them.
 struct CoarseSpan {
-    static constexpr int most = 128, pad = 32, pitch = most + 2 * pad;
+    // The pitch is an odd number of cache lines: rows of numbers then begin at different places of a cache.
+    static constexpr int most = 128, pad = 32, pitch = most + 2 * pad + 16;
     int first, columns;
     int left, right;  ///< columns of which what lies half way is made
 };
@@ -43,7 +44,7 @@ KERNEL void split_row(SplitRow& to, int row, const CoarseSpan& span)
         const bool is_there = span.first + column >= 0 && span.first + column < level.columns;
         const int f = finer_offset(row, 2 * (span.first + column));
         for (int kind = 0; kind < SplitRow::kinds; ++kind) {
-            const int plane = kind == 0               ? plane_row_sum
+            const int plane = kind == 0                ? plane_row_sum
                               : kind == 1 || kind == 3 ? finer_coupling(kind - 1)
                                                        : plane_block + 6 * (kind - 1);
             Number *even = to.at(0, kind, column), *odd = to.at(1, kind, column);
@@ -72,16 +73,16 @@ KERNEL void make_half_row(HalfRow& to, SplitRow& above, SplitRow& row, const Coa
                            even_above(4, c));
     };
     for (int c = span.left; c < span.right; c += Lanes<T>::count) {
-        const Symmetric held_here = held_across(even(0, c), even(2, c), even(3, c), even(4, c), odd_above(2, c),
-                                                even_above(3, c), odd_above(4, c - 1));
+        const Symmetric held_here = held_across(even(0, c), even(2, c), even(3, c), even(4, c),
+                                                odd_above(2, c), even_above(3, c), odd_above(4, c - 1));
         const Symmetric held_right = held_odd(c);
         buffer6(to.at(0, c), half_sum(even(0, c), odd(0, c - 1), odd(0, c)));
-        buffer6(to.at(1, c), half_diagonal(held_here, held_odd(c - 1), held_right, even(1, c - 1), odd(1, c - 1),
-                                           even(1, c), odd(1, c)));
+        buffer6(to.at(1, c), half_diagonal(held_here, held_odd(c - 1), held_right, even(1, c - 1),
+                                           odd(1, c - 1), even(1, c), odd(1, c)));
         buffer6(to.at(2, c), half_along(even(1, c), odd(1, c), held_right));
         buffer6(to.at(3, c), half_back(even(2, c), odd(2, c - 1), odd(3, c - 1)));
-        buffer6(to.at(4, c), half_down(even(2, c), even(3, c), even(4, c), odd(2, c), odd(3, c), odd(3, c - 1),
-                                       odd(4, c - 1)));
+        buffer6(to.at(4, c), half_down(even(2, c), even(3, c), even(4, c), odd(2, c), odd(3, c),
+                                       odd(3, c - 1), odd(4, c - 1)));
         buffer6(to.at(5, c), half_ahead(even(4, c), odd(4, c), odd(3, c)));
     }
 }
@@ -117,8 +118,9 @@ void coarsen_rows(int begin, int end)
             make(2 * row + 1);
             HalfRow &above = half_row(2 * row - 1), &here = half_row(2 * row), &below = half_row(2 * row + 1);
             const auto whole_half = [](HalfRow& from, int c) {
-                return HalfCoarse{buffered6(from.at(0, c)), buffered6(from.at(1, c)), buffered6(from.at(2, c)),
-                                  buffered6(from.at(3, c)), buffered6(from.at(4, c)), buffered6(from.at(5, c))};
+                return HalfCoarse{buffered6(from.at(0, c)), buffered6(from.at(1, c)),
+                                  buffered6(from.at(2, c)), buffered6(from.at(3, c)),
+                                  buffered6(from.at(4, c)), buffered6(from.at(5, c))};
             };
             for (int c = 0; c < span.columns; c += Lanes<T>::count) {
                 self.inside_ = Lanes<T>::first_lanes(level.columns - first - c);

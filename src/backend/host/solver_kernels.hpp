@@ -54,7 +54,8 @@ struct SolverKernels {
     static int in_groups(int plane, int o)
     {
         const auto place = static_cast<unsigned>(o);
-        return static_cast<int>(place / group_columns * (operator_planes * group_columns) + place % group_columns) +
+        return static_cast<int>(place / group_columns * (operator_planes * group_columns) +
+                                place % group_columns) +
                (plane - plane_block) * group_columns;
     }
 
@@ -98,7 +99,8 @@ struct SolverKernels {
         const Number* next = at(plane, o + rest) - rest;
         const mask here = Lanes<T>::first_lanes(rest);
         const auto either = [&](int k) {
-            return choose(here, Lanes<T>::load(p + k * group_columns), Lanes<T>::load(next + k * group_columns));
+            return choose(here, Lanes<T>::load(p + k * group_columns),
+                          Lanes<T>::load(next + k * group_columns));
         };
         return {either(0), either(1), either(2), either(3), either(4), either(5)};
     }
