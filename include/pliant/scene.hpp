@@ -334,9 +334,8 @@ enum class Preconditioner {
 struct NewtonMultigridOptions {
     std::uint32_t newton_iterations = 7;  ///< 1 to 1000: at most, in a step; of ACAD, four times as many
     /// 0 to 1: a step is solved when its residual has fallen to this fraction of the step's load (what
-    /// inertia and gravity ask of it), both in the norm of the energy; 0 never stops early. Of ACAD, to five
-    /// times as much, since its steps are small and many.
-    double newton_tolerance = 0.02;
+    /// inertia and gravity ask of it), both in the norm of the energy; 0 never stops early.
+    double newton_tolerance = 0.1;
     std::uint32_t linear_iterations = 6;  ///< 1 to 10,000 V-cycles: at most, in a Newton iteration
     double linear_tolerance = 0.2;  ///< 0 to 1: the same for each linear system, against the smaller of the
                                     ///< load and its own residual

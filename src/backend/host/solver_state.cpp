@@ -57,9 +57,7 @@ SolverConstants<T> make_solver_constants(const ClothModel& model, double step_le
     c.contact_stiffness = number(newton.contact_stiffness);
     c.slip = number(newton.friction_speed * step_length);
     c.linear_tolerance = number(newton.linear_tolerance);
-    constexpr double acad_tolerance = 5;  // times that of constraints; docs/performance.md, "Coming to rest"
-    c.newton_tolerance =
-        number(newton.newton_tolerance * (model.method == Method::acad ? acad_tolerance : 1.0));
+    c.newton_tolerance = number(newton.newton_tolerance);
     // Chebyshev's points on the upper part of the spectrum of D^-1 A, which the smoother has to take care of:
     // the higher its degree, the larger the part that it can. Measured by V-cycles (docs/performance.md).
     const double greatest = model.spectrum_end;
