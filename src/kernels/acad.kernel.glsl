@@ -21,12 +21,6 @@ KERNEL mask is_near_threshold(real length2, real rest, mask held)
     return length2 > choose(length2 < below * rest2, real(-1.0f), above * rest2);
 }
 
-// A bend spring is as long as the two structural ones beside it, and never beyond the threshold while they are not.
-KERNEL bool is_tested(int k)
-{
-    return sheet_has(k) && !(k >= 4 && sheet_has(0) && !acad_has_compression());
-}
-
 // How far it is beyond the threshold, by length squared, m2: the whole cost of being ready.
 KERNEL real excess(real length2, real rest2)
 {
@@ -41,7 +35,7 @@ KERNEL void sheet_limits(int o)
     if (!acad_has_memory()) {  // then nothing is counted where no spring is beyond
         real most = real(-1.0f);
         UNROLL for (int k = 0; k < 6; ++k) {
-            if (!is_tested(k)) continue;
+            if (!sheet_has(k)) continue;
             vec3 d = node_next_position(o + forward_offset(k)) - x;
             real over = excess(dot3(d, d), sheet_rest(k) * sheet_rest(k));
             most = largest(most, inside ? over : choose(load(plane_scale + k, o) > 0.0f, over, real(-1.0f)));

@@ -86,23 +86,18 @@ KERNEL void search_begin()
 
 // Armijo's rule, with room for the rounding of the sums. The last try is no step at all, and is taken. Either the whole
 // energy must fall or that without contact: a node that meets a collider within an iteration does not hold up the cloth,
-// for the next one sets it right. For the same reason an iteration that is not the last may lead up by what it was to
-// gain: what cloth overstretches as it turns is taken back next, while shortened steps unfold it in slow motion. The energy
-// to fall below stays the least so far, so that nothing adds up. (ACAD's limits come and go, and do not bear it.)
+// for the next one sets it right.
 KERNEL void search_check()
 {
     real energy = total(sum_spring_energy) + total(sum_node_energy);
     real step = scalar(scalar_step), before = scalar(scalar_energy), slope = scalar(scalar_slope);
     real room = real(1e-4f) * (largest(magnitude(before), scalar(scalar_load)));
     real contact = total(sum_contact_energy), least = room - real(1e-4f) * step * slope;
-    if (!is_last_look() && !is_acad()) least = least + slope;
-    bool bears = energy <= before + least || energy + contact <= before + scalar(scalar_contact_energy) + least;
-    if (bears || step == 0.0f) {
+    bool falls = energy <= before + least || energy + contact <= before + scalar(scalar_contact_energy) + least;
+    if (falls || step == 0.0f) {
         set_scalar(scalar_search_done, real(1.0f));
-        if (!(energy > before) || is_acad()) {
-            set_scalar(scalar_energy, energy);
-            set_scalar(scalar_contact_energy, contact);
-        }
+        set_scalar(scalar_energy, energy);
+        set_scalar(scalar_contact_energy, contact);
     } else {
         set_scalar(scalar_step, step > 0.01f ? step * real(0.25f) : real(0.0f));
     }

@@ -111,7 +111,7 @@ private:
         for (std::uint32_t k = 0; k < search_tries; ++k) {
             if (k > 0) add(Pass::search_move, Guard::search);
             evaluate(Guard::search, is_last ? last_look : 0);
-            add(Pass::search_check, Guard::search, 0, is_last ? last_look : 0);
+            add(Pass::search_check, Guard::search);
         }
         add(Pass::newton_check, Guard::newton);
     }
