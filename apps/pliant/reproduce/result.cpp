@@ -123,7 +123,10 @@ Json measured(const Experiment& experiment, const Circumstances& here)
                                                          no_pictures, here.interrupted));
         for (const Measurement& m : measurements) keep_pictures(experiment, cases[k], m, k, here, pictures);
         results.add(cases[k], measurements);
-        commands.push_back(made.command);
+        const double step = measurements.front().step;
+        commands.push_back(made.command + (experiment.kind == "stability" && step > 0
+                                               ? " --set time.dt=" + number_text(step)
+                                               : ""));
     }
     results.add_means();
 
