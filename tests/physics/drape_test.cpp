@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <ostream>
 #include <vector>
 
 #include "mesh/disc.hpp"
@@ -117,6 +118,8 @@ struct Published {
     const char* name;
     double least, most;  ///< of the coefficient; none of rubber
 };
+
+void PrintTo(const Published& row, std::ostream* out) { *out << row.name; }
 
 class Drape : public testing::TestWithParam<Published> {};
 INSTANTIATE_TEST_SUITE_P(Physics, Drape,
