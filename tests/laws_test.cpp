@@ -1,36 +1,16 @@
-// Laws against analytic references, against each other in double and float, and in SIMD bit by bit.
-#include <gtest/gtest.h>
-
+// Laws of springs, steps and measures against analytic references, in double and float, and in SIMD bit by
+// bit. Those of contact and air, and of volume, are in contact_laws_test.cpp and volume_laws_test.cpp.
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include "backend/cpu/pack.hpp"
-#include "laws/laws.hpp"
+#include "test_laws.hpp"
 
-namespace pliant {
+namespace pliant::test {
 namespace {
 
-using F = Laws<float>;
-using D = Laws<double>;
-using VF = Vector3<float>;
-using VD = Vector3<double>;
-
-constexpr double float_rounding = 0x1p-24;
-
-VD to_double(VF a) { return {a.x, a.y, a.z}; }
-double length(VD a) { return std::sqrt(a.x * a.x + a.y * a.y + a.z * a.z); }
 std::uint32_t bits(float a) { return std::bit_cast<std::uint32_t>(a); }
-
-class RandomVectors {
-public:
-    float number(float low, float high) { return std::uniform_real_distribution<float>(low, high)(engine_); }
-    VF vector(float size) { return {number(-size, size), number(-size, size), number(-size, size)}; }
-
-private:
-    std::mt19937 engine_{20261122};
-};
 
 // --- inverse square root
 // ---------------------------------------------------------------------------------------------
@@ -233,173 +213,6 @@ TEST(Integration, ChangeOfVelocityIsWhatTheStepAdds)
     EXPECT_EQ(length(D::velocity_change(v, f, 0.0, gravity, 0.5, 0.25)), 0);
 }
 
-// --- contact
-// ----------------------------------------------------------------------------------------------------------
-
-D::Collider box(VD centre, VD half)
-{
-    D::Collider c{};
-    c.kind = 2;
-    c.centre = centre;
-    c.axis_x = {1, 0, 0};
-    c.axis_y = {0, 1, 0};
-    c.axis_z = {0, 0, 1};
-    c.half_size = half;
-    return c;
-}
-
-TEST(Gap, Sphere)
-{
-    const auto outside = D::gap_sphere({3, 4, 0}, {0, 0, 0}, 2.0);
-    EXPECT_NEAR(outside.w, 3, 1e-14);
-    EXPECT_NEAR(outside.x, 0.6, 1e-15);
-    EXPECT_NEAR(D::gap_sphere({0.5, 0, 0}, {0, 0, 0}, 2.0).w, -1.5, 1e-14);
-    const auto centre = D::gap_sphere({1, 1, 1}, {1, 1, 1}, 2.0);
-    EXPECT_NEAR(centre.w, -2, 1e-14);
-    EXPECT_NEAR(length({centre.x, centre.y, centre.z}), 1, 1e-14);
-}
-
-TEST(Gap, Plane)
-{
-    const auto gap = D::gap_plane({5, 3, 7}, {0, 1, 0}, {0, 1, 0});
-    EXPECT_EQ(gap.w, 2);
-}
-
-TEST(Gap, Capsule)
-{
-    EXPECT_NEAR(D::gap_capsule({1, 0.3, 0}, {0, 0, 0}, {0, 1, 0}, 0.5, 0.2).w, 0.8, 1e-14);  // beside
-    EXPECT_NEAR(D::gap_capsule({0, 2, 0}, {0, 0, 0}, {0, 1, 0}, 0.5, 0.2).w, 1.3, 1e-14);    // beyond the end
-    EXPECT_NEAR(D::gap_capsule({0, -0.6, 0}, {0, 0, 0}, {0, 1, 0}, 0.5, 0.2).w, -0.1,
-                1e-14);  // within the lower cap
-}
-
-TEST(Gap, BoxFaceEdgeCornerAndInside)
-{
-    const auto c = box({1, 0, 0}, {1, 2, 3});
-    const auto face = D::collider_gap(c, {1, 5, 0});
-    EXPECT_NEAR(face.w, 3, 1e-14);
-    EXPECT_NEAR(face.y, 1, 1e-14);
-    const auto corner = D::collider_gap(c, {2 + 2, -2 - 1, 3 + 2});  // (2, -1, 2) from the corner
-    EXPECT_NEAR(corner.w, 3, 1e-14);
-    EXPECT_NEAR(corner.y, -1.0 / 3, 1e-14);
-    const auto inside = D::collider_gap(c, {0.25, 0.5, 0});  // 0.25 m from the face at x = 0
-    EXPECT_NEAR(inside.w, -0.25, 1e-14);
-    EXPECT_NEAR(inside.x, -1, 1e-14);
-}
-
-TEST(Gap, RotatedBox)
-{
-    auto c = box({0, 0, 0}, {1, 2, 3});
-    c.axis_x = {0, 1, 0};  // a quarter turn about z
-    c.axis_y = {-1, 0, 0};
-    EXPECT_NEAR(D::collider_gap(c, {0, 2.5, 0}).w, 1.5, 1e-14);
-    EXPECT_NEAR(D::collider_gap(c, {2.5, 0, 0}).w, 0.5, 1e-14);
-}
-
-TEST(Contact, RemovesTheApproachAndTakesFrictionFromTheRest)
-{
-    // Falling at 2 m/s while sliding at 3 m/s, mu = 0.5: sliding loses 0.5 * 2.
-    const VD v = D::contact_velocity({3, -2, 0}, {0, 0, 0}, {0, 1, 0}, 0.5);
-    EXPECT_NEAR(v.x, 2, 1e-14);
-    EXPECT_NEAR(v.y, 0, 1e-14);
-}
-
-TEST(Contact, SticksWhenFrictionSuffices)
-{
-    const VD v = D::contact_velocity({0.9, -2, 0}, {0, 0, 0}, {0, 1, 0}, 0.5);
-    EXPECT_NEAR(length(v), 0, 1e-14);
-}
-
-TEST(Contact, LeavesADepartingNodeAlone)
-{
-    const VD v = D::contact_velocity({3, 2, 1}, {0, 0, 0}, {0, 1, 0}, 0.5);
-    EXPECT_NEAR(length(v - VD{3, 2, 1}), 0, 1e-14);
-}
-
-TEST(Contact, MovesWithTheSurface)
-{
-    // A sphere spinning about y at 2 rad/s: its surface at x = 0.5 moves at -1 m/s along z.
-    D::Collider c{};
-    c.kind = 0;
-    c.radius = 0.5;
-    c.spin = {0, 2, 0};
-    c.velocity = {0, 0, 3};
-    EXPECT_NEAR(D::collider_surface_velocity(c, {0.5, 0, 0}).z, 2, 1e-14);
-    const VD stuck = D::contact_velocity({-1, 0, 2}, {0, 0, 2}, {1, 0, 0}, 10.0);
-    EXPECT_NEAR(length(stuck - VD{0, 0, 2}), 0, 1e-14);
-}
-
-TEST(Contact, StepPutsTheNodeOnTheSurfaceAndDoesNotLetItCreep)
-{
-    D::Collider plane{};
-    plane.kind = 1;
-    plane.axis_y = {0.6, 0.8, 0};  // tilted by less than friction holds
-    plane.friction = 2;
-    const double dt = 0.01, thickness = 0.125;
-    const VD at_rest = VD{0.6, 0.8, 0} * thickness;
-    D::Motion now{at_rest, {0, 0, 0}}, next;
-    next.velocity = {0, -10 * dt, 0};
-    next.position = now.position + next.velocity * dt;
-    const D::Motion after = D::contact_step(now, next, plane, thickness, 1.0, dt);
-    EXPECT_NEAR(length(after.position - at_rest), 0, 1e-15);
-    EXPECT_NEAR(length(after.velocity), 0, 1e-15);
-    const D::Motion pinned = D::contact_step(now, next, plane, thickness, 0.0, dt);
-    EXPECT_EQ(length(pinned.position - next.position), 0);
-}
-
-TEST(Contact, PaperResponseIsAlgorithm4AsPrinted)
-{
-    // 3 m/s of sliding with 1 m/s outward becomes |n + v / |v||: no units of velocity (see errata).
-    D::Collider sphere{};
-    sphere.kind = 0;
-    sphere.radius = 1;
-    sphere.response = 1;
-    D::Motion now{{0, 1.01, 0}, {3, 0, 0}}, next{{0, 0.99, 0}, {3, 0, 0}};
-    const D::Motion after = D::contact_step(now, next, sphere, 0.0, 1.0, 0.01);
-    EXPECT_NEAR(length(after.velocity), std::sqrt(2.0), 1e-14);
-    EXPECT_NEAR(after.position.y, 1, 1e-14);
-    next.velocity = {0, 0, 0};  // as printed a division by zero
-    EXPECT_NEAR(length(D::contact_step(now, next, sphere, 0.0, 1.0, 0.01).velocity - VD{0, 1, 0}), 0, 1e-14);
-}
-
-// --- air
-// --------------------------------------------------------------------------------------------------------------
-
-TEST(Wind, OnAPlateHeadOnIsDragAlone)
-{
-    // Area 0.5 m2, 4 m/s head on: rho C_d A u^2 / 2 over the three corners; lift has no direction to go.
-    const VD zero{0, 0, 0};
-    const VD f = D::wind_force({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, zero, zero, zero, {0, 0, 4}, 1.2, 1.5, 0.7);
-    EXPECT_NEAR(3 * f.z, 0.5 * 1.2 * 1.5 * 0.5 * 16, 1e-6);  // a third is rounded to float in the law
-    EXPECT_NEAR(f.x, 0, 1e-14);
-}
-
-TEST(Wind, BothSidesFeelTheSame)
-{
-    const VD a{0, 0, 0}, b{1, 0, 0.3}, c{0, 1, 0.2}, v{0.1, 0.2, 0.3}, wind{3, -1, 4};
-    const VD f = D::wind_force(a, b, c, v, v, v, wind, 1.2, 1.5, 0.7);
-    const VD g = D::wind_force(a, c, b, v, v, v, wind, 1.2, 1.5, 0.7);
-    EXPECT_NEAR(length(f - g), 0, 1e-14 * length(f));
-}
-
-TEST(Wind, AlongAPlateDoesNothingAndMovingWithTheAirNeither)
-{
-    const VD zero{0, 0, 0}, wind{0, 0, 4};
-    EXPECT_NEAR(
-        length(D::wind_force({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, zero, zero, zero, {4, 1, 0}, 1.2, 1, 1)), 0,
-        1e-14);
-    EXPECT_NEAR(length(D::wind_force({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, wind, wind, wind, wind, 1.2, 1, 1)), 0,
-                1e-6);
-}
-
-TEST(Wind, LiftIsAcrossTheWind)
-{
-    const VD zero{0, 0, 0}, u{3, 0, 4};
-    const VD lift = D::wind_force({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, zero, zero, zero, u, 1.2, 0, 1);
-    EXPECT_NEAR(D::dot3(lift, u), 0, 1e-12 * length(lift));
-    EXPECT_GT(length(lift), 0.1);
-}
-
 // --- normals and measures
 // -----------------------------------------------------------------------------------------------
 
@@ -426,110 +239,6 @@ TEST(Measure, NodeHasKineticEnergyAndHeight)
     EXPECT_EQ(m.kinetic_energy, 25);
     EXPECT_EQ(m.height_moment, 4);
     EXPECT_EQ(m.max_speed2, 25);
-}
-
-// --- volume
-
-TEST(Volume, GradientOfAnOctahedronIsAThirdOfTheAreaVectorsAroundANode)
-{
-    // The corner (a, 0, 0) of an octahedron: V = 4/3 a b c, so that dV/da of one of its two ends is 2/3 b c.
-    const double a = 0.7, b = 0.5, c = 0.9;
-    const VD corner{a, 0, 0}, ring[] = {{0, b, 0}, {0, 0, c}, {0, -b, 0}, {0, 0, -c}};
-    VD gradient{0, 0, 0};
-    for (int k = 0; k < 4; ++k)
-        gradient = D::ring_add(gradient, ring[k] - corner, ring[(k + 1) % 4] - corner);
-    EXPECT_NEAR(gradient.x, 6 * 2.0 / 3 * b * c, 1e-12);
-    EXPECT_NEAR(gradient.y, 0, 1e-12);
-    EXPECT_NEAR(gradient.z, 0, 1e-12);
-}
-
-TEST(Volume, CubicOfAFanIsTheVolumeOfTheMovedFan)
-{
-    RandomVectors random;
-    for (int round = 0; round < 1000; ++round) {
-        const VD centre = to_double(random.vector(1)), apex = to_double(random.vector(1)),
-                 moved_apex = to_double(random.vector(0.1f));
-        VD x[5], d[5];
-        for (int k = 0; k < 5; ++k) x[k] = to_double(random.vector(1)), d[k] = to_double(random.vector(0.1f));
-        D::FanSums fan = D::fan_of_nothing();
-        for (int k = 0; k < 4; ++k)
-            fan = D::fan_add(fan, x[k] - apex, x[k + 1] - apex, d[k] - moved_apex, d[k + 1] - moved_apex);
-        const D::VolumeCubic cubic = D::fan_cubic(fan, apex - centre, moved_apex);
-        for (const double s : {0.0, 0.3, -1.7, 4.0}) {
-            double sum = 0;
-            const VD a = apex - moved_apex * s - centre;
-            for (int k = 0; k < 4; ++k)
-                sum += D::dot3(a, D::cross3(x[k] - d[k] * s - centre, x[k + 1] - d[k + 1] * s - centre));
-            EXPECT_NEAR(D::volume_excess(cubic, 0.0, s), sum, 1e-12 * 4 * 27);
-        }
-    }
-}
-
-TEST(Volume, RootIsTheCubesOwn)
-{
-    // A cube that shrinks by s on every side: 6 (1 - s)^3 = 6 (0.9)^3 has the root 0.1.
-    D::VolumeCubic cube{6, 0, 18, 18, 6, {0, 0, 0}};
-    EXPECT_NEAR(D::volume_root(cube, 6 * 0.9 * 0.9 * 0.9), 0.1, 1e-14);
-    EXPECT_NEAR(D::volume_root(cube, 6 * 1.2 * 1.2 * 1.2), -0.2, 1e-14);
-    EXPECT_EQ(D::volume_root(cube, 6), 0);
-    cube.first = 0;  // nothing moves along a direction that changes no volume
-    EXPECT_EQ(D::volume_root(cube, 5), 0);
-    const F::VolumeCubic single{6, 0, 18, 18, 6, {0, 0, 0}};
-    EXPECT_NEAR(double{F::volume_root(single, 5.4f)}, 1 - std::cbrt(0.9), 4 * float_rounding);
-}
-
-TEST(Volume, SumsKeepWhatTheyRoundOff)
-{
-    // 2^20 numbers of about 0.1 in float: the sum with its lost digits is as good as each number.
-    RandomVectors random;
-    F::VolumeCubic sum = F::volume_cubic_of_nothing();
-    double exact = 0;
-    for (int k = 0; k < 1 << 20; ++k) {
-        F::VolumeCubic one = F::volume_cubic_of_nothing();
-        one.volume = random.number(0.05f, 0.15f);
-        exact += static_cast<double>(one.volume);
-        sum = F::volume_cubic_merge(sum, one);
-    }
-    EXPECT_NEAR((static_cast<double>(sum.volume) + static_cast<double>(sum.low)) / exact, 1,
-                2 * float_rounding);
-}
-
-TEST(Volume, MultiplierTakesTheExcessAwayAndBlockedNodesStay)
-{
-    RandomVectors random;
-    for (int round = 0; round < 1000; ++round) {
-        VD g[3], v[3];
-        double w[3], weight[3], sum_of_weights = 0;
-        D::Blocked held[3] = {D::blocked_by_nothing(), {{0, 1, 0}, 1}, {{1, 0, 0}, 2}};
-        D::VolumeRate sums = D::volume_rate_of_nothing();
-        for (int k = 0; k < 3; ++k) {
-            g[k] = to_double(random.vector(1)), v[k] = to_double(random.vector(1));
-            w[k] = static_cast<double>(random.number(0.5f, 2)),
-            weight[k] = static_cast<double>(random.number(0.1f, 1));
-            sum_of_weights += weight[k];
-            sums = D::volume_rate_merge(sums, D::volume_rate_of(g[k], v[k], w[k], weight[k], held[k]));
-        }
-        const VD mean = D::volume_mean(sums, 1 / sum_of_weights);
-        const double excess = 0.02, dt = 0.01;
-        const double q = D::volume_multiplier(sums, mean, excess, 1 / dt);
-        double rate = 0;
-        VD thrust{0, 0, 0};
-        for (int k = 0; k < 3; ++k) {
-            const VD d = D::volume_direction(g[k], mean, w[k], weight[k], held[k]);
-            rate += D::dot3(D::free_part(g[k], held[k]), v[k]) - q * D::dot3(g[k], d);
-            thrust = thrust + (g[k] - mean) * weight[k];
-            if (k == 1) {
-                EXPECT_NEAR(d.y, 0, 1e-15);
-            }
-            if (k == 2) {
-                EXPECT_EQ(length(d), 0);
-            }
-        }
-        if (q != 0) {
-            EXPECT_NEAR(excess + dt * rate, 0, 1e-10 * std::max(1.0, std::abs(q)));
-        }
-        EXPECT_NEAR(length(thrust), 0, 1e-14);
-    }
 }
 
 // --- the same bits in SIMD
@@ -605,4 +314,4 @@ TEST(Simd, GivesTheBitsOfScalarFloat)
 }
 
 }  // namespace
-}  // namespace pliant
+}  // namespace pliant::test

@@ -22,7 +22,7 @@ BAD_INPUT, BAD_USAGE, INTERRUPTED = 1, 2, 130
 
 # The figures and tables that the papers have and we reproduce.
 EXPERIMENTS = {
-    "cloth": ["fig07", "fig08", "fig09", "fig10", "fig11", "fig12", "fig13", "fig14", "fig15", "tables"],
+    "cloth": ["fig07", "fig08", "fig09", "fig10", "fig11", "fig12", "fig13", "fig14", "fig15", "integrators", "tables"],
     "volume": ["fig01", "fig06", "fig07", "fig09", "fig10", "fig11"],  # fig07 has figure 8, too
 }
 IDS = [f"{paper}_{item}" for paper, items in EXPERIMENTS.items() for item in items]
@@ -154,6 +154,13 @@ def quick_run_is_whole_and_consistent(folder):
     diverged = column("cloth_fig15", "ours: diverged in frame")
     expect(diverged[0] != "-" and diverged[1] == "-", f"figure 15: mass-spring and ACAD diverged in {diverged}")
     expect(float(column("cloth_fig15", "ours: largest stretch")[1]) < 12, "figure 15: ACAD holds 10 %")
+    integrators = column("cloth_integrators", "integrator")
+    longest = dict(zip(integrators, column("cloth_integrators", "cpu: longest step")))
+    expect(longest["implicit Euler"] == "over 100", f"implicit Euler stands any step: {longest}")
+    expect(10 * float(longest["explicit Euler"]) < float(longest["symplectic Euler"]) < float(longest["Runge-Kutta 4"]),
+           f"explicit < symplectic < Runge-Kutta: {longest}")
+    # Waves of a flat sheet of 12 springs have omega^2 = 8 k / m at most, 2 / omega = 3.5 ms; a fold is stiffer.
+    expect(2 < float(longest["symplectic Euler"]) < 4, f"symplectic Euler near 2 / omega: {longest}")
     losses = [float(text) for text in column("volume_fig07", "ours: largest loss")]
     methods = column("volume_fig07", "method")
     for loss, method in zip(losses, methods):

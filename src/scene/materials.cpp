@@ -9,7 +9,7 @@ const MaterialProperties& properties_of(Material material)
 {
     static constexpr std::array<MaterialProperties, 7> materials{{
         {},                           // none
-        {0.150, 4070, 90, 2.0e-5},    // cotton
+        {0.150, 4070, 90, 1.8e-5},    // cotton
         {0.069, 3000, 40, 1.5e-6},    // silk
         {0.324, 2030, 190, 6.42e-5},  // denim
         {0.235, 2500, 60, 1.4e-5},    // wool

@@ -52,18 +52,8 @@ TEST(HangingStrip, HasTheStrainOfItsWeight)
     // middle, so that the strain at the top is found by going on half a link from the two highest ones.
     constexpr std::uint32_t rows = 41;
     constexpr double length = 1, density = 0.5, k = 50, g = 9.81;
-    Cloth cloth = Cloth::sheet({.rows = rows,
-                                .columns = 2,
-                                .width = length / (rows - 1),
-                                .height = length,
-                                .border = SheetBorder::half,
-                                .density = density});
-    cloth.rotation = {90, 0, 0};
-    cloth.springs = {{k, 0}, {0, 0}, {0, 0}};
-    cloth.damping = 0;
-    cloth.pin(Edge::top);
     Scene scene;
-    scene.add(cloth);
+    scene.add(test::hanging_strip(rows, 2, length / (rows - 1), length, density, k, 0));
     test::seek_rest(scene);
     const auto x = test::at_rest(scene, 12);
     const auto height = [&](std::uint32_t row) { return x[2 * row].y; };

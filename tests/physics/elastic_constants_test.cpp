@@ -66,18 +66,8 @@ TEST(Lattice, AHangingStripStretchesAndNarrowsAsItsConstantsSay)
     // held, its stress is the weight below alone. Strains of 3e-3 leave 3e-3 for what is not linear in them.
     constexpr std::uint32_t rows = 61, columns = 7;
     constexpr double length = 1, width = 0.1, density = 0.8, k = 1000, g = 9.81;
-    Cloth cloth = Cloth::sheet({.rows = rows,
-                                .columns = columns,
-                                .width = width,
-                                .height = length,
-                                .border = SheetBorder::half,
-                                .density = density});
-    cloth.rotation = {90, 0, 0};
-    cloth.springs = {{k, 0}, {k / 2, 0}, {0, 0}};
-    cloth.damping = 0;
-    cloth.pin(Edge::top);
     Scene scene;
-    scene.add(cloth);
+    scene.add(test::hanging_strip(rows, columns, width, length, density, k, k / 2));
     test::seek_rest(scene);
     const auto x = test::at_rest(scene, 8);
     const auto at = [&](std::uint32_t row, std::uint32_t column) { return x[row * columns + column]; };

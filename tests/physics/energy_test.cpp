@@ -1,6 +1,7 @@
 // Energy: kept where nothing takes it, falling where something does.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -9,6 +10,13 @@
 
 namespace pliant {
 namespace {
+
+/// J, of all kinds.
+double energy_of(const Simulation& simulation)
+{
+    const auto& m = simulation.report().measures;
+    return m.kinetic_energy + m.elastic_energy + m.potential_energy;
+}
 
 TEST(Energy, OfAnUndampedSheetHasNoTrend)
 {
@@ -25,23 +33,14 @@ TEST(Energy, OfAnUndampedSheetHasNoTrend)
     SimulationOptions options;
     options.backend = Backend::reference;
     Simulation simulation(scene, options);
-    const auto energy = [&] {
-        return simulation.report().measures.kinetic_energy + simulation.report().measures.elastic_energy;
-    };
-    const double start = energy();
+    const double start = energy_of(simulation);
     double first_half = 0, second_half = 0;
     for (int frame = 0; frame < 1200; ++frame) {
         simulation.advance(1.0 / 60);
-        EXPECT_NEAR(energy() / start, 1, 0.02);
-        (frame < 600 ? first_half : second_half) += energy() / 600;
+        EXPECT_NEAR(energy_of(simulation) / start, 1, 0.02);
+        (frame < 600 ? first_half : second_half) += energy_of(simulation) / 600;
     }
     EXPECT_NEAR(second_half / first_half, 1, 0.002);
-}
-
-double energy_of(const Simulation& simulation)
-{
-    const auto& m = simulation.report().measures;
-    return m.kinetic_energy + m.elastic_energy + m.potential_energy;
 }
 
 TEST(Energy, OfADampedSheetNeverRises)
@@ -69,17 +68,12 @@ TEST(Energy, OfADampedSheetNeverRises)
     EXPECT_LT(before, 0.1 * start);
 }
 
-/// Energy after each quarter of a second of a sheet of 1 m, held at two corners, let go from the horizontal,
-/// J.
-std::vector<double> energies(std::uint32_t newton, double newton_tolerance, std::uint32_t linear,
-                             double linear_tolerance)
+/// Energy every twelfth of a second, J, of a sheet of 1 m, held at two corners, let go from the horizontal.
+std::vector<double> energies(const NewtonMultigridOptions& options)
 {
     Scene scene;
     scene.method = Method::constraint;
-    scene.newton_multigrid.newton_iterations = newton;
-    scene.newton_multigrid.newton_tolerance = newton_tolerance;
-    scene.newton_multigrid.linear_iterations = linear;
-    scene.newton_multigrid.linear_tolerance = linear_tolerance;
+    scene.newton_multigrid = options;
     auto cloth = scene.add(Cloth::sheet({.rows = 32, .columns = 32, .density = 0.3}));
     cloth->springs.bend = {1, 0};
     cloth.pin(Corner::top_left).pin(Corner::top_right);
@@ -87,24 +81,34 @@ std::vector<double> energies(std::uint32_t newton, double newton_tolerance, std:
     std::vector<double> list;
     for (int frame = 0; frame < 60; ++frame) {
         simulation.advance(1 / 60.0);
-        if (frame % 15 == 14) list.push_back(energy_of(simulation));
+        if (frame % 5 == 4) list.push_back(energy_of(simulation));
     }
     return list;
 }
 
 TEST(Energy, WhatTheSolverLosesIsLessThanTwoPerCent)
 {
-    // Row "solver honesty": energy lost against a converged run, < 2 % of m g L, with the default tolerances
-    // and as many V-cycles as they take. The default allows six of them for the sake of time and misses this
-    // bar: by how much is measured here, and said in docs/verification.md.
-    const auto usual = energies(7, 0.1, 6, 0.2), enough = energies(7, 0.1, 60, 0.2),
-               converged = energies(20, 1e-3, 60, 1e-2);
-    const double weight = 0.3 * 9.81;  // m g L
-    for (std::size_t k = 0; k < usual.size(); ++k) {
-        test::measured("energy lost by the default, over m g L", (converged[k] - usual[k]) / weight);
-        test::measured("energy lost with enough V-cycles, over m g L", (converged[k] - enough[k]) / weight);
-        EXPECT_NEAR(enough[k], converged[k], 0.02 * weight) << k;
-    }
+    // Row "solver honesty": energy lost against a converged run, < 2 % of m g L. The default stops after 7
+    // iterations of Newton's method, each of 6 V-cycles, for the sake of time, and misses this bar in the
+    // first second by as much as is measured here; 10 iterations of 8 V-cycles keep it
+    // (docs/verification.md). A run that is converged further differs from this one by 1e-4 of m g L.
+    const auto converged = energies({.newton_iterations = 20,
+                                     .newton_tolerance = 1e-3,
+                                     .linear_iterations = 60,
+                                     .linear_tolerance = 1e-2});
+    const auto most_lost = [&](const NewtonMultigridOptions& options) {
+        const auto found = energies(options);
+        const double weight = 0.3 * 9.81;  // m g L
+        double most = 0;
+        for (std::size_t k = 0; k < found.size(); ++k)
+            most = std::max(most, std::abs(converged[k] - found[k]) / weight);
+        return most;
+    };
+    const double usual = most_lost({}), enough = most_lost({.newton_iterations = 10, .linear_iterations = 8});
+    test::measured("energy lost by the default, over m g L", usual);
+    test::measured("energy lost by 10 iterations of 8 V-cycles, over m g L", enough);
+    EXPECT_LT(enough, 0.02);
+    EXPECT_LT(usual, 0.06);
 }
 
 }  // namespace

@@ -46,6 +46,23 @@ inline SurfaceMesh grid_mesh(std::uint32_t rows, std::uint32_t columns, double w
     return mesh;
 }
 
+/// A strip that hangs by its upper edge, row 0, undamped, of the continuum's constants.
+inline Cloth hanging_strip(std::uint32_t rows, std::uint32_t columns, double width, double height,
+                           double density, double structural, double shear)
+{
+    Cloth cloth = Cloth::sheet({.rows = rows,
+                                .columns = columns,
+                                .width = width,
+                                .height = height,
+                                .border = SheetBorder::half,
+                                .density = density});
+    cloth.rotation = {90, 0, 0};
+    cloth.springs = {{structural, 0}, {shear, 0}, {0, 0}};
+    cloth.damping = 0;
+    cloth.pin(Edge::top);
+    return cloth;
+}
+
 /// Where the nodes are after so many steps.
 inline std::vector<Vec3d> at_rest(const Scene& scene, int steps, Backend backend = Backend::reference)
 {

@@ -103,6 +103,13 @@ Experiment experiment_of(const Json& data, const Json& sets)
     e.software_nodes = two_numbers(data, "software_nodes", {1.1e6, 7e4});
     e.batch = data.value("batch", std::uint64_t{0});
     if (data.contains("rest_above")) e.rest_above = data["rest_above"].get<double>();
+    if (data.contains("stability")) {
+        const Json& rule = data["stability"];
+        e.stability.duration = two_numbers(rule, "duration", {});
+        e.stability.within = two_numbers(rule, "within", {});
+        e.stability.stretch_at_most = rule.at("stretch_at_most");
+        e.stability.timed_at_most = rule.at("timed_at_most");
+    }
     if (data.contains("pictures")) {
         e.picture_times[0] = data["pictures"].at("full").get<std::vector<double>>();
         e.picture_times[1] = data["pictures"].at("quick").get<std::vector<double>>();

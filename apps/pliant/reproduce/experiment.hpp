@@ -60,9 +60,17 @@ struct TwoNumbers {
     double of(bool is_quick) const { return is_quick ? quick : full; }
 };
 
+/// How the longest step is looked for.
+struct StabilityRule {
+    TwoNumbers duration;         ///< s, that a cloth must stand
+    TwoNumbers within;           ///< 0.01: the step is found to 1 %
+    double stretch_at_most = 0;  ///< of any spring at any time, (l - l0) / l0
+    double timed_at_most = 0;    ///< s: what a step costs is measured with the longest one up to this
+};
+
 struct Experiment {
     Json data;                                 ///< as it is written
-    std::string id, paper, item, title, kind;  ///< kind: speed, behaviour, passes
+    std::string id, paper, item, title, kind;  ///< kind: speed, behaviour, stability, passes
     std::string scene, setting, differs;
     std::vector<std::string> set;
     std::vector<Axis> axes;
@@ -72,6 +80,7 @@ struct Experiment {
     TwoNumbers software_nodes;         ///< largest case that a software Vulkan device runs
     std::uint64_t batch = 0;           ///< frames in one call; 0: a fifth of them
     std::optional<double> rest_above;  ///< m: the body's lowest point is put so high
+    StabilityRule stability;           ///< of that kind
     std::vector<double> picture_times[2];  ///< s; full, quick
     std::vector<std::string> of_case, quantities;
     std::vector<Ratio> ratios;

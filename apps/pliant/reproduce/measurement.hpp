@@ -36,6 +36,8 @@ struct Measurement {
     VolumeReport volume;
     SolverReport solver;
     std::vector<Picture> pictures;
+    double step_longest = 0;             ///< s, of kind stability; 0: none that was tried
+    bool step_longest_is_bound = false;  ///< the longest that is tried at all
 };
 
 /// The scene of a case, and the overrides that make it.
@@ -56,6 +58,11 @@ std::vector<Measurement> measure_speed(const Experiment& experiment, const Scene
 Measurement measure_behaviour(const Experiment& experiment, const Scene& scene, bool quick,
                               const MachineHere& machine, std::string& no_pictures,
                               const Interrupted& interrupted);
+
+/// The longest step that the scene stands, and the speed with it; one entry for each machine.
+std::vector<Measurement> measure_stability(const Experiment& experiment, const Scene& scene, bool quick,
+                                           const std::vector<MachineHere>& machines,
+                                           const Interrupted& interrupted);
 
 /// A number as every file of the report writes it.
 std::string number_text(double value);

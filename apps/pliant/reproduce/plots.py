@@ -77,8 +77,8 @@ def lines(axes, document, table):
     axes.set_xlabel(plot["x_title"])
     if "real_time" in plot:
         axes.axhline(plot["real_time"], color="#999", linewidth=0.8, linestyle=":")
-        axes.annotate(f"{plot['real_time']} frames/s", (0.995, plot["real_time"]), fontsize=8, color="#666",
-                      xycoords=("axes fraction", "data"), ha="right", va="bottom")
+        axes.annotate(f"{plot['real_time']} frames/s", (0.005, plot["real_time"]), fontsize=8, color="#666",
+                      xycoords=("axes fraction", "data"), ha="left", va="bottom")
     axes.grid(True, which="major", linewidth=0.4, color="#ccc")
 
 
@@ -129,8 +129,9 @@ def draw(document, file):
     devices = "; ".join(("" if machine["title"] == "ours" else f"{machine['title']}: ") + machine["device"]
                         for machine in document["machines"])
     quick = "; quick run" if document["quick"] else ""
+    busy = "; on a busy machine, speeds uncertain" if any("busy machine" in note for note in document["notes"]) else ""
     figure.text(0.01, 0.005, f"theirs: on a GTX 1070 and an i7-7700; compare ratios, not absolute numbers\n"
-                f"ours: on {devices}{quick}", fontsize=6.5, color="#555")
+                f"ours: on {devices}{quick}{busy}", fontsize=6.5, color="#555")
     figure.tight_layout(rect=(0, 0.05, 1, 1))
     partial = file.with_suffix(".part")
     figure.savefig(partial, format="svg", metadata={"Date": None})

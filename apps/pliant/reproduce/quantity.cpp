@@ -29,6 +29,21 @@ constexpr Quantity quantities[] = {
      [](const Measurement& m) {
          return m.finite ? std::string("-") : number_text(static_cast<double>(m.bad_frame));
      }},
+    {"step_longest_ms", "longest step", "ms",
+     [](const Measurement& m) {
+         const std::string text = number_text(1000 * m.step_longest);
+         return m.step_longest == 0 ? "none" : m.step_longest_is_bound ? "over " + text : text;
+     }},
+    {"timed_step_ms", "step that is timed", "ms",
+     [](const Measurement& m) { return number_text(1000 * m.step); }},
+    {"step_cost_us", "time for a step", "us",
+     [](const Measurement& m) {
+         return if_measured(m, number_text(1e6 / m.frames_per_second / m.steps_per_frame));
+     }},
+    {"second_cost_ms", "time for a simulated second", "ms",
+     [](const Measurement& m) {
+         return if_measured(m, number_text(1e3 / m.frames_per_second / m.steps_per_frame / m.step));
+     }},
     {"residual_max", "largest residual", "",
      [](const Measurement& m) { return if_measured(m, number_text(m.solver.residual_max)); }},
     {"active_mean", "active constraints, mean", "",

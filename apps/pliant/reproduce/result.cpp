@@ -2,17 +2,21 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <ctime>
 #include <fstream>
 
 #include "comparison_table.hpp"
 #include "files/atomic_file.hpp"
+#include "other_load.hpp"
 #include "pliant/version.hpp"
 #include "record/run_record.hpp"
 #include "render/image_file.hpp"
 
 namespace pliant::tool::reproduce {
 namespace {
+
+constexpr double quiet = 0.05;  // part of the processors' time that others may take without a word
 
 /// FNV-1a, 64 bit.
 std::uint64_t hash_of(const std::string& text)
@@ -104,19 +108,25 @@ Json measured(const Experiment& experiment, const Circumstances& here)
     ComparisonTable results(experiment, machines);
     Json commands = Json::array(), pictures = Json::array();
     std::string no_pictures;
+    const OtherLoad others;
     for (std::size_t k = 0; k < cases.size(); ++k) {
         here.progress(k, cases.size(), name_of_case(experiment, cases[k]));
         const CaseScene made = scene_of(experiment, cases[k], here.quick, here.meshes);
         std::vector<Measurement> measurements;
         if (experiment.kind == "speed")
             measurements = measure_speed(experiment, made.scene, here.quick, machines, here.interrupted);
+        else if (experiment.kind == "stability")
+            measurements = measure_stability(experiment, made.scene, here.quick, machines, here.interrupted);
         else
             for (const MachineHere& machine : machines)
                 measurements.push_back(measure_behaviour(experiment, made.scene, here.quick, machine,
                                                          no_pictures, here.interrupted));
         for (const Measurement& m : measurements) keep_pictures(experiment, cases[k], m, k, here, pictures);
         results.add(cases[k], measurements);
-        commands.push_back(made.command);
+        const double step = measurements.front().step;
+        commands.push_back(made.command + (experiment.kind == "stability" && step > 0
+                                               ? " --set time.dt=" + number_text(step)
+                                               : ""));
     }
     results.add_means();
 
@@ -131,6 +141,18 @@ Json measured(const Experiment& experiment, const Circumstances& here)
     document["notes"] = Json::array();
     for (const std::string& note : results.notes()) document["notes"].push_back(note);
     if (!no_pictures.empty()) document["notes"].push_back("no pictures: " + no_pictures);
+    const bool tells_speed = std::any_of(
+        experiment.quantities.begin(), experiment.quantities.end(), [](const std::string& quantity) {
+            return quantity == "frames_per_second" || quantity == "step_cost_us";
+        });
+    if (const auto share = others.share()) {
+        document["others_share"] = *share;
+        if (tells_speed && *share > quiet)
+            document["notes"].push_back(
+                "measured on a busy machine: other programs took " +
+                std::to_string(std::lround(100 * *share)) +
+                " % of its processors' time, so that speeds are too low and ratios uncertain");
+    }
     document["commands"] = commands;
     document["pictures"] = pictures;
     return document;

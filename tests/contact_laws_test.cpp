@@ -1,0 +1,175 @@
+// Laws of contact and of air against closed forms.
+#include "test_laws.hpp"
+
+namespace pliant::test {
+namespace {
+
+// --- contact
+// ----------------------------------------------------------------------------------------------------------
+
+D::Collider box(VD centre, VD half)
+{
+    D::Collider c{};
+    c.kind = 2;
+    c.centre = centre;
+    c.axis_x = {1, 0, 0};
+    c.axis_y = {0, 1, 0};
+    c.axis_z = {0, 0, 1};
+    c.half_size = half;
+    return c;
+}
+
+TEST(Gap, Sphere)
+{
+    const auto outside = D::gap_sphere({3, 4, 0}, {0, 0, 0}, 2.0);
+    EXPECT_NEAR(outside.w, 3, 1e-14);
+    EXPECT_NEAR(outside.x, 0.6, 1e-15);
+    EXPECT_NEAR(D::gap_sphere({0.5, 0, 0}, {0, 0, 0}, 2.0).w, -1.5, 1e-14);
+    const auto centre = D::gap_sphere({1, 1, 1}, {1, 1, 1}, 2.0);
+    EXPECT_NEAR(centre.w, -2, 1e-14);
+    EXPECT_NEAR(length({centre.x, centre.y, centre.z}), 1, 1e-14);
+}
+
+TEST(Gap, Plane)
+{
+    const auto gap = D::gap_plane({5, 3, 7}, {0, 1, 0}, {0, 1, 0});
+    EXPECT_EQ(gap.w, 2);
+}
+
+TEST(Gap, Capsule)
+{
+    EXPECT_NEAR(D::gap_capsule({1, 0.3, 0}, {0, 0, 0}, {0, 1, 0}, 0.5, 0.2).w, 0.8, 1e-14);  // beside
+    EXPECT_NEAR(D::gap_capsule({0, 2, 0}, {0, 0, 0}, {0, 1, 0}, 0.5, 0.2).w, 1.3, 1e-14);    // beyond the end
+    EXPECT_NEAR(D::gap_capsule({0, -0.6, 0}, {0, 0, 0}, {0, 1, 0}, 0.5, 0.2).w, -0.1,
+                1e-14);  // within the lower cap
+}
+
+TEST(Gap, BoxFaceEdgeCornerAndInside)
+{
+    const auto c = box({1, 0, 0}, {1, 2, 3});
+    const auto face = D::collider_gap(c, {1, 5, 0});
+    EXPECT_NEAR(face.w, 3, 1e-14);
+    EXPECT_NEAR(face.y, 1, 1e-14);
+    const auto corner = D::collider_gap(c, {2 + 2, -2 - 1, 3 + 2});  // (2, -1, 2) from the corner
+    EXPECT_NEAR(corner.w, 3, 1e-14);
+    EXPECT_NEAR(corner.y, -1.0 / 3, 1e-14);
+    const auto inside = D::collider_gap(c, {0.25, 0.5, 0});  // 0.25 m from the face at x = 0
+    EXPECT_NEAR(inside.w, -0.25, 1e-14);
+    EXPECT_NEAR(inside.x, -1, 1e-14);
+}
+
+TEST(Gap, RotatedBox)
+{
+    auto c = box({0, 0, 0}, {1, 2, 3});
+    c.axis_x = {0, 1, 0};  // a quarter turn about z
+    c.axis_y = {-1, 0, 0};
+    EXPECT_NEAR(D::collider_gap(c, {0, 2.5, 0}).w, 1.5, 1e-14);
+    EXPECT_NEAR(D::collider_gap(c, {2.5, 0, 0}).w, 0.5, 1e-14);
+}
+
+TEST(Contact, RemovesTheApproachAndTakesFrictionFromTheRest)
+{
+    // Falling at 2 m/s while sliding at 3 m/s, mu = 0.5: sliding loses 0.5 * 2.
+    const VD v = D::contact_velocity({3, -2, 0}, {0, 0, 0}, {0, 1, 0}, 0.5);
+    EXPECT_NEAR(v.x, 2, 1e-14);
+    EXPECT_NEAR(v.y, 0, 1e-14);
+}
+
+TEST(Contact, SticksWhenFrictionSuffices)
+{
+    const VD v = D::contact_velocity({0.9, -2, 0}, {0, 0, 0}, {0, 1, 0}, 0.5);
+    EXPECT_NEAR(length(v), 0, 1e-14);
+}
+
+TEST(Contact, LeavesADepartingNodeAlone)
+{
+    const VD v = D::contact_velocity({3, 2, 1}, {0, 0, 0}, {0, 1, 0}, 0.5);
+    EXPECT_NEAR(length(v - VD{3, 2, 1}), 0, 1e-14);
+}
+
+TEST(Contact, MovesWithTheSurface)
+{
+    // A sphere spinning about y at 2 rad/s: its surface at x = 0.5 moves at -1 m/s along z.
+    D::Collider c{};
+    c.kind = 0;
+    c.radius = 0.5;
+    c.spin = {0, 2, 0};
+    c.velocity = {0, 0, 3};
+    EXPECT_NEAR(D::collider_surface_velocity(c, {0.5, 0, 0}).z, 2, 1e-14);
+    const VD stuck = D::contact_velocity({-1, 0, 2}, {0, 0, 2}, {1, 0, 0}, 10.0);
+    EXPECT_NEAR(length(stuck - VD{0, 0, 2}), 0, 1e-14);
+}
+
+TEST(Contact, StepPutsTheNodeOnTheSurfaceAndDoesNotLetItCreep)
+{
+    D::Collider plane{};
+    plane.kind = 1;
+    plane.axis_y = {0.6, 0.8, 0};  // tilted by less than friction holds
+    plane.friction = 2;
+    const double dt = 0.01, thickness = 0.125;
+    const VD at_rest = VD{0.6, 0.8, 0} * thickness;
+    D::Motion now{at_rest, {0, 0, 0}}, next;
+    next.velocity = {0, -10 * dt, 0};
+    next.position = now.position + next.velocity * dt;
+    const D::Motion after = D::contact_step(now, next, plane, thickness, 1.0, dt);
+    EXPECT_NEAR(length(after.position - at_rest), 0, 1e-15);
+    EXPECT_NEAR(length(after.velocity), 0, 1e-15);
+    const D::Motion pinned = D::contact_step(now, next, plane, thickness, 0.0, dt);
+    EXPECT_EQ(length(pinned.position - next.position), 0);
+}
+
+TEST(Contact, PaperResponseIsAlgorithm4AsPrinted)
+{
+    // 3 m/s of sliding with 1 m/s outward becomes |n + v / |v||: no units of velocity (see errata).
+    D::Collider sphere{};
+    sphere.kind = 0;
+    sphere.radius = 1;
+    sphere.response = 1;
+    D::Motion now{{0, 1.01, 0}, {3, 0, 0}}, next{{0, 0.99, 0}, {3, 0, 0}};
+    const D::Motion after = D::contact_step(now, next, sphere, 0.0, 1.0, 0.01);
+    EXPECT_NEAR(length(after.velocity), std::sqrt(2.0), 1e-14);
+    EXPECT_NEAR(after.position.y, 1, 1e-14);
+    next.velocity = {0, 0, 0};  // as printed a division by zero
+    EXPECT_NEAR(length(D::contact_step(now, next, sphere, 0.0, 1.0, 0.01).velocity - VD{0, 1, 0}), 0, 1e-14);
+}
+
+// --- air
+// --------------------------------------------------------------------------------------------------------------
+
+TEST(Wind, OnAPlateHeadOnIsDragAlone)
+{
+    // Area 0.5 m2, 4 m/s head on: rho C_d A u^2 / 2 over the three corners; lift has no direction to go.
+    const VD zero{0, 0, 0};
+    const VD f = D::wind_force({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, zero, zero, zero, {0, 0, 4}, 1.2, 1.5, 0.7);
+    EXPECT_NEAR(3 * f.z, 0.5 * 1.2 * 1.5 * 0.5 * 16, 1e-6);  // a third is rounded to float in the law
+    EXPECT_NEAR(f.x, 0, 1e-14);
+}
+
+TEST(Wind, BothSidesFeelTheSame)
+{
+    const VD a{0, 0, 0}, b{1, 0, 0.3}, c{0, 1, 0.2}, v{0.1, 0.2, 0.3}, wind{3, -1, 4};
+    const VD f = D::wind_force(a, b, c, v, v, v, wind, 1.2, 1.5, 0.7);
+    const VD g = D::wind_force(a, c, b, v, v, v, wind, 1.2, 1.5, 0.7);
+    EXPECT_NEAR(length(f - g), 0, 1e-14 * length(f));
+}
+
+TEST(Wind, AlongAPlateDoesNothingAndMovingWithTheAirNeither)
+{
+    const VD zero{0, 0, 0}, wind{0, 0, 4};
+    EXPECT_NEAR(
+        length(D::wind_force({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, zero, zero, zero, {4, 1, 0}, 1.2, 1, 1)), 0,
+        1e-14);
+    EXPECT_NEAR(length(D::wind_force({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, wind, wind, wind, wind, 1.2, 1, 1)), 0,
+                1e-6);
+}
+
+TEST(Wind, LiftIsAcrossTheWind)
+{
+    const VD zero{0, 0, 0}, u{3, 0, 4};
+    const VD lift = D::wind_force({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, zero, zero, zero, u, 1.2, 0, 1);
+    EXPECT_NEAR(D::dot3(lift, u), 0, 1e-12 * length(lift));
+    EXPECT_GT(length(lift), 0.1);
+}
+
+}  // namespace
+}  // namespace pliant::test
