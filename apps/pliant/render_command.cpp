@@ -6,6 +6,7 @@
 
 #include "backend/vulkan/device_state.hpp"
 #include "commands.hpp"
+#include "label.hpp"
 #include "picture_source.hpp"
 #include "progress.hpp"
 #include "render/picture_recorder.hpp"
@@ -187,6 +188,8 @@ int render_command(const RenderOptions& options)
                 recorder.add(films.front()->draw(), frame);
             } else {
                 put_side_by_side(films[0]->draw(), films[1]->draw(), both);
+                write_label(both, 0, methods[0]);
+                write_label(both, both.width / 2, methods[1]);
                 recorder.add(both, frame);
             }
         }

@@ -87,7 +87,7 @@ public:
     void poll(std::vector<Event>& events) override
     {
         // A minimised window sleeps until something happens.
-        if (target_->has_images())
+        if (target_->has_images() && !minimised_)
             glfwPollEvents();
         else
             glfwWaitEventsTimeout(0.1);
@@ -157,8 +157,14 @@ private:
             try {
                 int width = 0, height = 0;
                 glfwGetFramebufferSize(window_.get(), &width, &height);
-                const bool minimised = width == 0 || height == 0;
-                if (stale_ || minimised == target_->has_images()) rebuild();
+                // Some systems keep the size of a minimised window.
+                minimised_ =
+                    width == 0 || height == 0 || glfwGetWindowAttrib(window_.get(), GLFW_ICONIFIED) != 0;
+                if (minimised_) {
+                    stale_ = true;
+                    return std::nullopt;
+                }
+                if (stale_ || !target_->has_images()) rebuild();
                 if (!target_->has_images()) return std::nullopt;
                 if (const auto image = target_->acquire(free)) {
                     image_ = *image;
@@ -226,7 +232,7 @@ private:
     std::optional<vulkan::WindowTarget> target_;
     std::vector<Event> events_;
     std::uint32_t image_ = 0;
-    bool stale_ = false, copied_ = false;
+    bool stale_ = false, copied_ = false, minimised_ = false;
 };
 
 }  // namespace
