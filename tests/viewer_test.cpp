@@ -14,6 +14,7 @@
 #include <stb/stb_image.h>
 #include <unistd.h>
 
+#include "label.hpp"
 #include "render/image_file.hpp"
 #include "test_errors.hpp"
 #include "viewer/script.hpp"
@@ -71,7 +72,8 @@ protected:
         SimulationOptions options;
         options.backend = backend;
         options.threads = 1;
-        return std::make_unique<Viewer>(make_headless_screen(-1, validation, width, height), options);
+        return std::make_unique<Viewer>(make_headless_screen({.validation = validation}, width, height),
+                                        options);
     }
     static void run(Viewer& viewer, int frames)
     {
@@ -109,6 +111,21 @@ Image reduced(const Image& image)
     return small;
 }
 
+/// Rasterisers may place samples a little differently: of 255, 1 in the mean, and a few blocks along edges
+/// more.
+void expect_alike(const Image& image, const std::uint8_t* other, const std::string& name)
+{
+    double sum = 0;
+    int far = 0;
+    for (std::size_t i = 0; i < image.rgba.size(); ++i) {
+        const int difference = std::abs(int{image.rgba[i]} - int{other[i]});
+        sum += difference;
+        far += difference > 24;
+    }
+    EXPECT_LT(sum / static_cast<double>(image.rgba.size()), 1.0) << name;
+    EXPECT_LT(far, static_cast<int>(image.rgba.size() / 100)) << name;
+}
+
 /// Compares with a stored picture, which PLIANT_UPDATE_PICTURES=1 replaces by what there is now.
 void expect_picture(const Image& image, const std::string& name)
 {
@@ -120,18 +137,8 @@ void expect_picture(const Image& image, const std::string& name)
     ASSERT_NE(stored, nullptr) << file << " is missing";
     ASSERT_EQ(static_cast<std::uint32_t>(width), small.width);
     ASSERT_EQ(static_cast<std::uint32_t>(height), small.height);
-    double sum = 0;
-    int far = 0;
-    for (std::size_t i = 0; i < small.rgba.size(); ++i) {
-        const int difference = std::abs(int{small.rgba[i]} - int{stored[i]});
-        sum += difference;
-        far += difference > 24;
-    }
+    expect_alike(small, stored, name);
     stbi_image_free(stored);
-    // Rasterisers may place samples a little differently: of 255, 1 in the mean, and a few blocks along edges
-    // more.
-    EXPECT_LT(sum / static_cast<double>(small.rgba.size()), 1.0) << name;
-    EXPECT_LT(far, static_cast<int>(small.rgba.size() / 100)) << name;
 }
 
 TEST_F(ViewerTest, ShowsEveryOverlay)
@@ -276,6 +283,27 @@ TEST(OrbitCameraTest, TurnsAboutItsCentre)
     EXPECT_NEAR(camera.distance(), 0.81 * distance, 1e-12);
     camera.frame({1, 1, 1}, 0.5, 1.5);
     EXPECT_EQ(camera.centre(), (Vec3d{1, 1, 1}));
+}
+
+TEST(Label, IsReadInTheCornerOfItsPart)
+{
+    const Image plain{480, 270, std::vector<std::uint8_t>(std::size_t{4} * 480 * 270, 128)};
+    const auto changed = [&](const Image& image, std::uint32_t left, std::uint32_t right) {
+        std::size_t count = 0;
+        for (std::size_t y = 0; y < plain.height; ++y)
+            for (std::size_t x = left; x < right; ++x)
+                count += image.rgba[4 * (y * plain.width + x)] != plain.rgba[0];
+        return count;
+    };
+    Image one = plain, other = plain, narrow = plain;
+    write_label(one, 240, "mass_spring");
+    EXPECT_EQ(changed(one, 0, 240), 0u);
+    EXPECT_GT(changed(one, 240, 330), 500u);
+    EXPECT_EQ(changed(one, 330, 480), 0u);
+    write_label(other, 240, "constraint");
+    EXPECT_NE(one.rgba, other.rgba);
+    write_label(narrow, 470, "constraint");  // is cut off
+    EXPECT_GT(changed(narrow, 470, 480), 20u);
 }
 
 TEST(Script, NamesWhatIsWrong)

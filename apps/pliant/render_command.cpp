@@ -6,6 +6,7 @@
 
 #include "backend/vulkan/device_state.hpp"
 #include "commands.hpp"
+#include "label.hpp"
 #include "picture_source.hpp"
 #include "progress.hpp"
 #include "render/picture_recorder.hpp"
@@ -170,8 +171,10 @@ int render_command(const RenderOptions& options)
     }
     const TimeOptions& time = scenes.front().time;
     PictureRecorder recorder(options.out_file, time.frame_rate);
-    const auto device = std::make_shared<vulkan::Device>(vulkan::DeviceOptions{
-        .index = options.simulation.device, .validation = options.simulation.validation});
+    const auto device = std::make_shared<vulkan::Device>(
+        vulkan::DeviceOptions{.index = options.simulation.device,
+                              .validation = options.simulation.validation,
+                              .pipeline_folder = options.simulation.pipeline_folder});
     std::vector<std::unique_ptr<Film>> films;
     for (const Scene& scene : scenes) films.push_back(std::make_unique<Film>(scene, options, device));
 
@@ -187,6 +190,8 @@ int render_command(const RenderOptions& options)
                 recorder.add(films.front()->draw(), frame);
             } else {
                 put_side_by_side(films[0]->draw(), films[1]->draw(), both);
+                write_label(both, 0, methods[0]);
+                write_label(both, both.width / 2, methods[1]);
                 recorder.add(both, frame);
             }
         }

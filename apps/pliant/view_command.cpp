@@ -1,6 +1,7 @@
 // pliant view: a window in which a scene moves, or the same without one.
 #include <chrono>
 #include <cstdio>
+#include <iostream>
 #include <limits>
 
 #include <nlohmann/json.hpp>
@@ -21,12 +22,13 @@ class SessionLog {
 public:
     explicit SessionLog(const std::string& file)
     {
-        if (!file.empty()) file_ = std::make_unique<AtomicFile>(file);
+        to_output_ = file == "-";
+        if (!file.empty() && !to_output_) file_ = std::make_unique<AtomicFile>(file);
     }
 
     void add(std::uint64_t frame, Viewer& viewer)
     {
-        if (!file_) return;
+        if (!file_ && !to_output_) return;
         Session& session = viewer.session();
         Simulation& simulation = session.simulation();
         const auto numbers = [](Vec3d a) { return nlohmann::json::array({a.x, a.y, a.z}); };
@@ -62,7 +64,10 @@ public:
             line["held_position"] = numbers(session.position_of(*held));
             line["hand"] = numbers(session.hand());
         }
-        file_->stream() << line.dump() << '\n';
+        if (file_)
+            file_->stream() << line.dump() << '\n';
+        else
+            std::cout << line.dump() << std::endl;  // whoever reads it follows the session
     }
 
     void finish()
@@ -72,15 +77,18 @@ public:
 
 private:
     std::unique_ptr<AtomicFile> file_;
+    bool to_output_ = false;
 };
 
 std::unique_ptr<Screen> make_screen(const ViewOptions& options)
 {
     const auto [width, height] = picture_size(options.size.empty() ? "1280x720" : options.size);
     const SimulationOptions& simulation = options.simulation;
-    if (options.headless)
-        return make_headless_screen(simulation.device, simulation.validation, width, height);
-    return make_window_screen(simulation.device, simulation.validation, width, height, "pliant");
+    const vulkan::DeviceOptions device{.index = simulation.device,
+                                       .validation = simulation.validation,
+                                       .pipeline_folder = simulation.pipeline_folder};
+    if (options.headless) return make_headless_screen(device, width, height);
+    return make_window_screen(device, width, height, "pliant");
 }
 
 }  // namespace

@@ -149,15 +149,23 @@ void Panel::draw_state(Session& session, View& view)
     ImGui::Text("viewer %.2f ms", view.cost.own);
     if (view.recording) ImGui::TextColored(warning_colour, "recording");
     ImGui::PushTextWrapPos(320);
-    // Asked for only here: it makes a sentence.
-    if (simulation.step_length() > simulation.stable_step() &&
-        simulation.scene().method != Method::constraint)
-        ImGui::TextColored(warning_colour, "the step of %.3g ms exceeds the largest safe one of %.3g ms",
-                           1000 * simulation.step_length(), 1000 * simulation.stable_step());
-    if (!report.finite)
+    const auto offer_reset = [&](const char* name) {
+        if (ImGui::SmallButton(name)) view.wants_reset = true;
+    };
+    const Method method = simulation.scene().method;
+    if (simulation.step_length() > simulation.stable_step() && method != Method::constraint) {
+        // Of ACAD the solver keeps it stable all the same.
+        ImGui::TextColored(warning_colour, "the step of %.3g ms exceeds the largest safe one of %.3g ms%s",
+                           1000 * simulation.step_length(), 1000 * simulation.stable_step(),
+                           method == Method::acad ? ": springs are taken softer" : "");
+        offer_reset("Reset##unstable");
+    }
+    if (!report.finite) {
         ImGui::TextColored(warning_colour, "diverged in frame %llu: node %llu is no longer finite",
                            static_cast<unsigned long long>(report.bad_frame),
                            static_cast<unsigned long long>(report.bad_node));
+        offer_reset("Reset##diverged");
+    }
     if (report.device_lost) ImGui::TextColored(warning_colour, "stopped: %s", report.failure.c_str());
     if (!session.notice.empty()) ImGui::TextColored(warning_colour, "%s", session.notice.c_str());
     ImGui::PopTextWrapPos();

@@ -115,12 +115,11 @@ void Screen::finish(const FramePlace& place, bool kept)
 
 double Screen::take_driver_seconds() { return std::exchange(driver_seconds_, 0.0); }
 
-std::unique_ptr<Screen> make_headless_screen(int device, bool validation, std::uint32_t width,
+std::unique_ptr<Screen> make_headless_screen(const vulkan::DeviceOptions& device, std::uint32_t width,
                                              std::uint32_t height)
 {
-    return std::make_unique<HeadlessScreen>(
-        std::make_shared<vulkan::Device>(vulkan::DeviceOptions{.index = device, .validation = validation}),
-        vk::Extent2D{width, height});
+    return std::make_unique<HeadlessScreen>(std::make_shared<vulkan::Device>(device),
+                                            vk::Extent2D{width, height});
 }
 
 }  // namespace pliant::tool

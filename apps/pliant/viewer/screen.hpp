@@ -71,11 +71,11 @@ private:
 };
 
 /// Pictures of this size that no one sees. Throws Error(device_failure) when there is no device for it.
-std::unique_ptr<Screen> make_headless_screen(int device, bool validation, std::uint32_t width,
+std::unique_ptr<Screen> make_headless_screen(const vulkan::DeviceOptions& device, std::uint32_t width,
                                              std::uint32_t height);
 /// A window. Throws Error(device_failure) when there is no display, or no device that can show pictures in
 /// it.
-std::unique_ptr<Screen> make_window_screen(int device, bool validation, std::uint32_t width,
+std::unique_ptr<Screen> make_window_screen(const vulkan::DeviceOptions& device, std::uint32_t width,
                                            std::uint32_t height, const std::string& title);
 
 }  // namespace pliant::tool

@@ -56,11 +56,10 @@ Window make_window(std::uint32_t width, std::uint32_t height, const std::string&
     return window;
 }
 
-std::shared_ptr<vulkan::Device> make_device(int index, bool validation)
+std::shared_ptr<vulkan::Device> make_device(vulkan::DeviceOptions options)
 {
     std::uint32_t count = 0;
     const char** names = glfwGetRequiredInstanceExtensions(&count);
-    vulkan::DeviceOptions options{.index = index, .validation = validation};
     options.surface_extensions.assign(names, names + count);
     return std::make_shared<vulkan::Device>(options);
 }
@@ -87,7 +86,7 @@ public:
     void poll(std::vector<Event>& events) override
     {
         // A minimised window sleeps until something happens.
-        if (target_->has_images())
+        if (target_->has_images() && !minimised_)
             glfwPollEvents();
         else
             glfwWaitEventsTimeout(0.1);
@@ -157,8 +156,14 @@ private:
             try {
                 int width = 0, height = 0;
                 glfwGetFramebufferSize(window_.get(), &width, &height);
-                const bool minimised = width == 0 || height == 0;
-                if (stale_ || minimised == target_->has_images()) rebuild();
+                // Some systems keep the size of a minimised window.
+                minimised_ =
+                    width == 0 || height == 0 || glfwGetWindowAttrib(window_.get(), GLFW_ICONIFIED) != 0;
+                if (minimised_) {
+                    stale_ = true;
+                    return std::nullopt;
+                }
+                if (stale_ || !target_->has_images()) rebuild();
                 if (!target_->has_images()) return std::nullopt;
                 if (const auto image = target_->acquire(free)) {
                     image_ = *image;
@@ -226,17 +231,17 @@ private:
     std::optional<vulkan::WindowTarget> target_;
     std::vector<Event> events_;
     std::uint32_t image_ = 0;
-    bool stale_ = false, copied_ = false;
+    bool stale_ = false, copied_ = false, minimised_ = false;
 };
 
 }  // namespace
 
-std::unique_ptr<Screen> make_window_screen(int device, bool validation, std::uint32_t width,
+std::unique_ptr<Screen> make_window_screen(const vulkan::DeviceOptions& device, std::uint32_t width,
                                            std::uint32_t height, const std::string& title)
 {
     static const Library library;  // ends with the program
     Window window = make_window(width, height, title);
-    return std::make_unique<WindowScreen>(std::move(window), make_device(device, validation));
+    return std::make_unique<WindowScreen>(std::move(window), make_device(device));
 }
 
 }  // namespace pliant::tool
