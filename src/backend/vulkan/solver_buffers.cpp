@@ -166,6 +166,12 @@ void SolverBuffers::record_scalar_copy(const vk::raii::CommandBuffer& commands) 
     commands.copyBuffer(*scalars_, *scalar_copy_, vk::BufferCopy(0, 0, solver_scalar_count * sizeof(float)));
 }
 
+bool SolverBuffers::skips(Guard guard) const
+{
+    return scalar_copy_.mapped &&
+           static_cast<const float*>(scalar_copy_.mapped)[static_cast<std::size_t>(guard)] != 0.0f;
+}
+
 std::vector<double> SolverBuffers::scalar_values() const
 {
     std::array<float, solver_scalar_count> values{};

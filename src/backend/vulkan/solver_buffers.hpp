@@ -31,6 +31,8 @@ public:
     const Buffer& topology() const { return topology_; }
     const Buffer& multiplier() const { return multiplier_; }
 
+    /// Whether calls of this guard are skipped, by the last copy of the scalars.
+    bool skips(Guard guard) const;
     /// Appends the copy of the scalars to where the host reads them.
     void record_scalar_copy(const vk::raii::CommandBuffer& commands) const;
     std::vector<double> scalar_values() const;

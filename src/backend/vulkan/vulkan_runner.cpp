@@ -6,6 +6,7 @@
 #include <set>
 
 #include "backend/vulkan/cloth_buffers.hpp"
+#include "backend/vulkan/segments.hpp"
 #include "backend/vulkan/shader_code.hpp"
 #include "solve/frame.hpp"
 #include "solve/mass_spring.hpp"
@@ -45,13 +46,16 @@ struct Push {
 /// All cloths of a scene do, or none: by the scene's method.
 bool needs_solver(const ClothModel& model) { return !model.hierarchy.empty(); }
 
-/// A program as commands, with a timestamp before, between and after its stretches of calls of one
-/// pass.
+/// A segment of a program as commands, with a timestamp before, between and after its stretches of calls of
+/// one pass.
 struct Recording {
     struct Stretch {
         Pass pass;
         std::uint64_t calls = 0;
     };
+    Segment segment;
+    std::uint32_t cloth = 0;  ///< of the first call
+    Guard guard = Guard::none;
     vk::raii::CommandBuffer commands{nullptr};
     vk::raii::QueryPool queries{nullptr};
     std::vector<Stretch> stretches;
@@ -386,15 +390,38 @@ private:
             if (sets_changed || recordings_.size() >= most_recordings) recordings_.clear();
         }
         if (found == recordings_.end()) found = recordings_.emplace(program.id, record(program)).first;
-        const Recording& recording = found->second;
-        device_->run(recording.commands);
-        if (*recording.queries) take_times(recording);
+        const std::vector<Recording>& recordings = found->second;
+        for (std::size_t s = 0; s < recordings.size();) {
+            const Recording& recording = recordings[s];
+            if (recording.segment.looks && cloths_[recording.cloth].solver().skips(recording.guard)) {
+                s = recording.segment.next;
+                continue;
+            }
+            device_->run(recording.commands);
+            if (*recording.queries) take_times(recording);
+            ++s;
+        }
     }
 
-    Recording record(const Program& program) const
+    std::vector<Recording> record(const Program& program) const
+    {
+        std::vector<Recording> recordings;
+        for (const Segment& segment : segments_of(program.calls))
+            recordings.push_back(record(program, segment));
+        return recordings;
+    }
+
+    Recording record(const Program& program, const Segment& segment) const
     {
         Recording recording;
-        for (const Call& call : program.calls) {
+        recording.segment = segment;
+        const std::span<const Call> calls =
+            std::span(program.calls).subspan(segment.first, segment.end - segment.first);
+        if (!calls.empty()) {
+            recording.cloth = calls.front().cloth;
+            recording.guard = calls.front().guard;
+        }
+        for (const Call& call : calls) {
             if (recording.stretches.empty() || recording.stretches.back().pass != call.pass)
                 recording.stretches.push_back({call.pass, 0});
             ++recording.stretches.back().calls;
@@ -419,9 +446,9 @@ private:
         std::uint32_t query = 0;
         if (timed)
             commands.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *recording.queries, query++);
-        for (std::size_t c = 0; c < program.calls.size(); ++c) {
-            const Call& call = program.calls[c];
-            const bool last = c + 1 == program.calls.size() || program.calls[c + 1].pass != call.pass;
+        for (std::size_t c = 0; c < calls.size(); ++c) {
+            const Call& call = calls[c];
+            const bool last = c + 1 == calls.size() || calls[c + 1].pass != call.pass;
             if (plan.needed_before(call))
                 barrier(commands, vk::PipelineStageFlagBits::eComputeShader, vk::AccessFlagBits::eShaderWrite,
                         vk::PipelineStageFlagBits::eComputeShader,
@@ -495,7 +522,7 @@ private:
     std::vector<Vec3d> origins_;          ///< different ones, of all cloths
     std::vector<std::size_t> origin_of_;  ///< by cloth, index into origins_
     Buffer colliders_;
-    std::map<std::uint64_t, Recording> recordings_;
+    std::map<std::uint64_t, std::vector<Recording>> recordings_;
     std::vector<std::uint64_t> ticks_;
     PassClock clock_;
     std::uint32_t parity_ = 0;
