@@ -21,7 +21,7 @@
 #include "viewer/viewer.hpp"
 
 namespace {
-std::atomic<long long> alive{0};
+std::atomic<long long> alive{0}, allocations{0};
 }  // namespace
 
 // The compiler inlines these, and then takes malloc and free for strangers.
@@ -31,13 +31,13 @@ std::atomic<long long> alive{0};
 // not count.
 void* operator new(std::size_t size)
 {
-    ++alive;
+    ++alive, ++allocations;
     if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
     throw std::bad_alloc();
 }
 void* operator new(std::size_t size, std::align_val_t alignment)
 {
-    ++alive;
+    ++alive, ++allocations;
     const auto unit = static_cast<std::size_t>(alignment);
     if (void* memory = std::aligned_alloc(unit, (size + unit - 1) / unit * unit)) return memory;
     throw std::bad_alloc();
@@ -208,6 +208,36 @@ TEST_F(ViewerTest, ChangesScenesAndSizesWithoutComplaint)
         for (int k = 0; k < 24; ++k) change_everything(*viewer, k);
     }
     EXPECT_EQ(vulkan::Device::all_validation_messages(), messages);
+}
+
+TEST_F(ViewerTest, ShowsTheSameFromCpuAndVulkan)
+{
+    std::vector<Image> images;
+    for (const Backend backend : {Backend::cpu, Backend::vulkan}) {
+        auto viewer = viewer_of(backend, 200, 120);
+        viewer->open("parity");
+        viewer->view().panel = false;
+        viewer->session().speed = 0.75;  // so that what is seen lies between two states
+        run(*viewer, 6);
+        EXPECT_LT(viewer->session().blend(), 1.0f);
+        images.push_back(picture_of(*viewer));
+        EXPECT_EQ(viewer->screen().device()->validation_messages(), 0u);
+    }
+    EXPECT_EQ(images[0].rgba, images[1].rgba);
+}
+
+TEST_F(ViewerTest, AllocatesNothingInAFrame)
+{
+    for (const Backend backend : {Backend::cpu, Backend::vulkan}) {
+        // Without the validation layer, which allocates by these operators, too.
+        auto viewer = viewer_of(backend, 160, 90, false);
+        viewer->open("parity");
+        run(*viewer, 45);  // programs are made, vectors have grown, and passes were timed twice
+        const long long before = allocations;
+        run(*viewer, 25);
+        EXPECT_EQ(allocations - before, 0) << (backend == Backend::cpu ? "cpu" : "vulkan");
+        EXPECT_TRUE(viewer->session().simulation().report().finite);
+    }
 }
 
 TEST_F(ViewerTest, GoesOnWhenMinimised)

@@ -66,6 +66,8 @@ void PictureSource::gather(Simulation& simulation, OverlaySet overlays)
 {
     const std::size_t count = simulation.scene().cloth_count();
     const bool direct = is_direct(simulation), known = before_.size() == count;
+    const bool strained =
+        overlays.has(Overlay::strain) || simulation.scene().camera.colour == ClothColour::strain;
     frames_.clear();
     extras_.assign(count, {});
     for (std::size_t c = 0; c < count; ++c) {
@@ -73,7 +75,8 @@ void PictureSource::gather(Simulation& simulation, OverlaySet overlays)
             frames_.emplace_back(simulation.device_state()->drawable(c));
         else
             frames_.emplace_back(
-                HostCloth{simulation.positions(c), simulation.normals(c), simulation.strains(c),
+                HostCloth{simulation.positions(c), simulation.normals(c),
+                          strained ? simulation.strains(c) : std::span<const float>(),
                           known ? std::span<const Vec3>(before_[c]) : std::span<const Vec3>()});
     }
     if (overlays.has(Overlay::multipliers) || overlays.has(Overlay::active))

@@ -89,11 +89,11 @@ public:
     /// The root of the tree of measures after a program that computed it.
     virtual MeasureTotals measures(std::uint32_t cloth) = 0;
 
-    /// 6 V in m3 of the bodies of a cloth, after a program that measured it.
-    virtual std::vector<double> volumes(std::uint32_t cloth) = 0;
+    /// 6 V in m3 of a body of a cloth, after a program that measured it.
+    virtual double volume(std::uint32_t cloth, std::size_t body) = 0;
 
-    /// The scalars of a cloth's constraint solver, by their numbers in kernels/planes.kernel.glsl.
-    virtual std::vector<double> solver_scalars(std::uint32_t cloth) = 0;
+    /// A scalar of a cloth's constraint solver, by its number in kernels/planes.kernel.glsl.
+    virtual double solver_scalar(std::uint32_t cloth, std::size_t number) = 0;
 
     virtual const PassClock& clock() const = 0;
     virtual std::string device_name() const = 0;

@@ -225,8 +225,9 @@ public:
         s.newton_last = s.iterations_last = 0;
         s.residual_last = 0;
         for (std::uint32_t c = 0; c < models.size(); ++c) {
-            const std::vector<double> of = runner->solver_scalars(c);
-            const auto number = [&](int scalar) { return of[static_cast<std::size_t>(scalar)]; };
+            const auto number = [&](int scalar) {
+                return runner->solver_scalar(c, static_cast<std::size_t>(scalar));
+            };
             const auto whole = [&](int scalar) { return static_cast<std::uint32_t>(number(scalar)); };
             s.solves += whole(scalar_solves);
             newton_sum += number(scalar_newton_sum);
@@ -440,7 +441,7 @@ public:
         for (BodyMeasures& measures : report.bodies) {
             const ClothPlace& place = places[measures.cloth];
             const BodyPart& part = models[place.model].body->parts[place.part];
-            measures.volume = runner->volumes(place.model)[place.part] / 6;
+            measures.volume = runner->volume(place.model, place.part) / 6;
             measures.ratio = measures.volume / part.volume;
             measures.error = measures.ratio / value_at(part.options.target, report.simulated_seconds, 1) - 1;
             VolumeReport& all = report.volume;

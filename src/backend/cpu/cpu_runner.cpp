@@ -74,7 +74,9 @@ struct Work {
             size = cloth->body.size_of(c);
             weight = block_size;
             cloth->body.prepare(c, plain, values);
-        } else if (call->pass == Pass::sheet_wind) {
+        } else if (call->pass == Pass::sheet_wind || call->pass == Pass::sheet_normal ||
+                   call->pass == Pass::sheet_strain) {
+            plain.make_room_for(call->pass);
             unit = Unit::rows;
             size = plain.layout.rows;
             weight = plain.layout.columns;
@@ -130,8 +132,13 @@ private:
         arguments.position = pointers(std::as_const(plain.position[call->parity]));
         arguments.velocity = pointers(std::as_const(plain.velocity[call->parity]));
         arguments.wind_force = pointers(plain.external_force);
+        arguments.normal = pointers(plain.normal);
+        arguments.strain = plain.strain.data();
         arguments.constants = constants;
-        kernels->sheet_wind(arguments, begin, end);
+        const auto kernel = call->pass == Pass::sheet_wind     ? kernels->sheet_wind
+                            : call->pass == Pass::sheet_normal ? kernels->sheet_normal
+                                                               : kernels->sheet_strain;
+        kernel(arguments, begin, end);
     }
 
     void measures(std::size_t begin, std::size_t end) const
@@ -209,15 +216,13 @@ public:
         cloths_[cloth].plain.take_mass(node);
         cloths_[cloth].solver.take_mass(cloths_[cloth].plain.model, node);
     }
-    std::vector<double> volumes(std::uint32_t cloth) override
+    double volume(std::uint32_t cloth, std::size_t body) override
     {
-        const auto& values = cloths_[cloth].plain.body.volumes;
-        return {values.begin(), values.end()};
+        return double{cloths_[cloth].plain.body.volumes[body]};
     }
-    std::vector<double> solver_scalars(std::uint32_t cloth) override
+    double solver_scalar(std::uint32_t cloth, std::size_t number) override
     {
-        const auto values = cloths_[cloth].solver.scalars();
-        return {values.begin(), values.end()};
+        return double{cloths_[cloth].solver.scalars()[number]};
     }
     MeasureTotals measures(std::uint32_t cloth) override { return cloths_[cloth].plain.totals(); }
     const PassClock& clock() const override { return clock_; }

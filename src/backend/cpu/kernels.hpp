@@ -18,13 +18,15 @@ struct Vectors {
     float *x, *y, *z;
 };
 
-/// A sheet's step or wind; pointers are to NodeLayout planes.
+/// A sheet's step, wind, normals or strains; pointers are to NodeLayout planes.
 struct SheetArguments {
     const NodeLayout* layout;
     ConstVectors position, velocity;
     Vectors next_position, next_velocity;
     ConstVectors external_force;  ///< x is null without air
     Vectors wind_force;           ///< where the wind pass writes
+    Vectors normal;               ///< and that of normals
+    float* strain;                ///< and that of strains
     const float* inverse_mass;
     const StepConstants<float>* constants;
     const Laws<float>::Collider* colliders;
@@ -162,7 +164,8 @@ using BodyKernel = void (*)(const BodyArguments&, std::size_t first_block, std::
 struct Kernels {
     const char* name;
     void (*sheet_steps)(const SheetStretch&);
-    void (*sheet_wind)(const SheetArguments&, std::size_t first_row, std::size_t end_row);
+    using RowKernel = void (*)(const SheetArguments&, std::size_t first_row, std::size_t end_row);
+    RowKernel sheet_wind, sheet_normal, sheet_strain;
     void (*sheet_measure)(const MeasureArguments&, std::size_t first_block, std::size_t end_block);
     void (*mesh_measure)(const MeasureArguments&, std::size_t first_block, std::size_t end_block);
     void (*record_states)(const RecordArguments&, std::size_t first, std::size_t end);

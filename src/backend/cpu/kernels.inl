@@ -100,6 +100,8 @@ void sheet_wind(const SheetArguments& a, std::size_t first_row, std::size_t end_
 
 #include "backend/cpu/sheet_kernels.inl"
 
+#include "backend/cpu/drawing_kernels.inl"
+
 #include "backend/cpu/list_kernels.inl"
 
 #include "backend/cpu/measure_kernels.inl"
@@ -114,9 +116,9 @@ void solve(const SolverContext<float>& context, const Call& call, int first, int
 }  // namespace
 
 extern const Kernels PLIANT_KERNELS;
-const Kernels PLIANT_KERNELS = {PLIANT_KERNELS_NAME, sheet_steps,   sheet_wind,    sheet_measure,
-                                mesh_measure,        record_states, spring_forces, list_step,
-                                ring_step,           volume_gather, volume_step,   volume_cubic,
-                                volume_correct,      solve};
+const Kernels PLIANT_KERNELS = {PLIANT_KERNELS_NAME, sheet_steps,   sheet_wind,     sheet_normal,
+                                sheet_strain,        sheet_measure, mesh_measure,   record_states,
+                                spring_forces,       list_step,     ring_step,      volume_gather,
+                                volume_step,         volume_cubic,  volume_correct, solve};
 
 }  // namespace pliant::cpu

@@ -494,11 +494,22 @@ void PlainCloth<T>::read(Resource resource, std::uint32_t parity, std::vector<fl
     const auto push = [&](auto... numbers) { (values.push_back(static_cast<float>(numbers)), ...); };
     const std::size_t nodes = model.node_count();
     const auto push_planes = [&](const Planes<T>& planes) {
-        values.reserve(3 * nodes);
-        for (std::size_t i = 0; i < nodes; ++i) {
-            const Vector a = planes.x.empty() ? Vector{T(0), T(0), T(0)} : planes.get(layout.offset(i));
-            push(a.x, a.y, a.z);
-        }
+        values.assign(3 * nodes, 0.0f);
+        if (planes.x.empty()) return;
+        for_each_node(0, nodes, [&](const Place& place) {
+            const Vector a = planes.get(place.offset);
+            float* const to = &values[3 * place.node];
+            to[0] = static_cast<float>(a.x);
+            to[1] = static_cast<float>(a.y);
+            to[2] = static_cast<float>(a.z);
+        });
+    };
+    const auto push_numbers = [&](const AlignedArray<T>& numbers) {
+        values.assign(nodes, 0.0f);
+        if (numbers.empty()) return;
+        for_each_node(0, nodes, [&](const Place& place) {
+            values[place.node] = static_cast<float>(numbers[place.offset]);
+        });
     };
     switch (resource) {
         case Resource::position: return push_planes(position[parity]);
@@ -513,18 +524,16 @@ void PlainCloth<T>::read(Resource resource, std::uint32_t parity, std::vector<fl
             }
             return;
         case Resource::normal: return push_planes(normal);
-        case Resource::strain:
-            for (std::size_t i = 0; i < nodes; ++i) push(strain.empty() ? T(0) : strain[layout.offset(i)]);
-            return;
+        case Resource::strain: return push_numbers(strain);
         case Resource::measures:
             for (const Measure& m : measures)
                 push(m.max_stretch, m.max_penetration, m.max_speed2, m.stretch_sum, m.kinetic_energy,
                      m.elastic_energy, m.height_moment, m.non_finite);
             return;
-        case Resource::colliders:
         case Resource::multiplier:
-            for (std::size_t i = 0; i < nodes && !multiplier.empty(); ++i) push(multiplier[layout.offset(i)]);
+            if (!multiplier.empty()) push_numbers(multiplier);
             return;
+        case Resource::colliders:
         case Resource::slopes:
         case Resource::solver: return;  // nothing that is read
         default: return body.read(resource, layout, values);

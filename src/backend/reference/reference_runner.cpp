@@ -67,11 +67,13 @@ public:
         cloths_[cloth].take_mass(node);
         solvers_[cloth].take_mass(cloths_[cloth].model, node);
     }
-    std::vector<double> volumes(std::uint32_t cloth) override { return cloths_[cloth].body.volumes; }
-    std::vector<double> solver_scalars(std::uint32_t cloth) override
+    double volume(std::uint32_t cloth, std::size_t body) override
     {
-        const auto values = solvers_[cloth].scalars();
-        return {values.begin(), values.end()};
+        return cloths_[cloth].body.volumes[body];
+    }
+    double solver_scalar(std::uint32_t cloth, std::size_t number) override
+    {
+        return solvers_[cloth].scalars()[number];
     }
     MeasureTotals measures(std::uint32_t cloth) override { return cloths_[cloth].totals(); }
     const PassClock& clock() const override { return clock_; }

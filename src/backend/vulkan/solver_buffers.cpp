@@ -166,17 +166,11 @@ void SolverBuffers::record_scalar_copy(const vk::raii::CommandBuffer& commands) 
     commands.copyBuffer(*scalars_, *scalar_copy_, vk::BufferCopy(0, 0, solver_scalar_count * sizeof(float)));
 }
 
-bool SolverBuffers::skips(Guard guard) const
-{
-    return scalar_copy_.mapped &&
-           static_cast<const float*>(scalar_copy_.mapped)[static_cast<std::size_t>(guard)] != 0.0f;
-}
+bool SolverBuffers::skips(Guard guard) const { return scalar(static_cast<std::size_t>(guard)) != 0; }
 
-std::vector<double> SolverBuffers::scalar_values() const
+double SolverBuffers::scalar(std::size_t number) const
 {
-    std::array<float, solver_scalar_count> values{};
-    if (scalar_copy_.mapped) std::memcpy(values.data(), scalar_copy_.mapped, sizeof values);
-    return {values.begin(), values.end()};
+    return scalar_copy_.mapped ? double{static_cast<const float*>(scalar_copy_.mapped)[number]} : 0;
 }
 
 }  // namespace pliant::vulkan

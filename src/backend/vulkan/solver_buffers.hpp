@@ -35,7 +35,7 @@ public:
     bool skips(Guard guard) const;
     /// Appends the copy of the scalars to where the host reads them.
     void record_scalar_copy(const vk::raii::CommandBuffer& commands) const;
-    std::vector<double> scalar_values() const;
+    double scalar(std::size_t number) const;
 
 private:
     Groups groups_on(std::int32_t rows, std::int32_t columns) const;

@@ -264,10 +264,13 @@ public:
         cloths_[cloth].take_mass(*device_, node);
     }
 
-    std::vector<double> volumes(std::uint32_t cloth) override { return cloths_[cloth].body().volumes(); }
-    std::vector<double> solver_scalars(std::uint32_t cloth) override
+    double volume(std::uint32_t cloth, std::size_t body) override
     {
-        return cloths_[cloth].solver().scalar_values();
+        return cloths_[cloth].body().volume(body);
+    }
+    double solver_scalar(std::uint32_t cloth, std::size_t number) override
+    {
+        return cloths_[cloth].solver().scalar(number);
     }
     MeasureTotals measures(std::uint32_t cloth) override { return cloths_[cloth].totals(); }
     const PassClock& clock() const override { return clock_; }
