@@ -74,6 +74,9 @@ def lines(axes, document, table):
         axis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5), numticks=20))
         axis.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:,.10g}"))
         axis.set_minor_formatter(ticker.NullFormatter())
+    low, high = axes.get_xlim()
+    if high > 100 * low:  # numbers of three decades have no room for more than a label to each
+        axes.xaxis.set_major_locator(ticker.LogLocator(numticks=20))
     axes.set_xlabel(plot["x_title"])
     if "real_time" in plot:
         axes.axhline(plot["real_time"], color="#999", linewidth=0.8, linestyle=":")
