@@ -124,9 +124,6 @@ PLIANT_INLINE void sum_ring(const BodyArguments& a, std::size_t slice, std::ptrd
 template <bool with_gradient>
 inline void step_block(const BodyArguments& a, std::size_t b)
 {
-    const StepConstants<float>& c = *a.constants;
-    const Vector gravity = spread_vector<Number>(c.gravity);
-    const Number dt(c.dt), decay(c.decay), thickness(c.thickness);
     const BodyBlock& block = a.blocks[b];
     SliceRing ring{};
     for_each_pack(block, [&](std::size_t slice, std::size_t lane, std::size_t place, std::ptrdiff_t lanes) {
@@ -137,12 +134,7 @@ inline void step_block(const BodyArguments& a, std::size_t b)
         Vector force = ring.force_at(lane);
         if (a.external_force.x) force = force + load(a.external_force, offset);
         if (with_gradient) force = force + ring.gradient_at(lane) * Number(a.numbers[block.body].pressure);
-        L::Motion next;
-        next.velocity = L::velocity_step(now.velocity, force, w, gravity, decay, dt);
-        next.position = L::position_step(now.position, next.velocity, dt);
-        for (std::size_t k = 0; k < a.collider_count; ++k)
-            next = L::contact_step(now, next, spread_collider<L::Collider, Number>(a.colliders[k]), thickness,
-                                   w, dt);
+        const L::Motion next = stepped(a, now, force, w);
         store_some(a.next_position, offset, next.position, lanes);
         store_some(a.next_velocity, offset, next.velocity, lanes);
         store_records(a.next_state, offset, next.position, next.velocity, lanes);

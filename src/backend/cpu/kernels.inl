@@ -98,6 +98,23 @@ void sheet_wind(const SheetArguments& a, std::size_t first_row, std::size_t end_
     });
 }
 
+/// A pack of nodes at the end of a step: forces, integration, and what colliders have to say.
+template <class Arguments>
+PLIANT_INLINE L::Motion stepped(const Arguments& a, const L::Motion& now, const Vector& force,
+                                const Number& inverse_mass)
+{
+    const StepConstants<float>& c = *a.constants;
+    const Number dt(c.dt);
+    L::Motion next;
+    next.velocity = L::velocity_step(now.velocity, force, inverse_mass, spread_vector<Number>(c.gravity),
+                                     Number(c.decay), dt);
+    next.position = L::position_step(now.position, next.velocity, dt);
+    for (std::size_t k = 0; k < a.collider_count; ++k)
+        next = L::contact_step(now, next, spread_collider<L::Collider, Number>(a.colliders[k]),
+                               Number(c.thickness), inverse_mass, dt);
+    return next;
+}
+
 #include "backend/cpu/sheet_kernels.inl"
 
 #include "backend/cpu/drawing_kernels.inl"

@@ -26,12 +26,16 @@ PLIANT_INLINE L::Motion gather_states(const float* records, const std::uint32_t*
 {
     return {gather_vectors(records, place), gather_vectors(records + vector_size, place)};
 }
-/// Vectors one behind the other, `stride` floats apart.
+/// The first vectors of a pack, one behind the other, `stride` floats apart.
 template <std::size_t stride>
 PLIANT_INLINE void store_vectors(float* records, const Vector& a, std::ptrdiff_t lanes)
 {
+    const auto store_lane = [&](int lane, const Quad& quad) {
+        *reinterpret_cast<Quad*>(records + static_cast<std::size_t>(lane) * stride) = quad;
+    };
+    if (lanes >= width) return quads_from_vectors<width>(a, store_lane);
     quads_from_vectors<width>(a, [&](int lane, const Quad& quad) {
-        if (lane < lanes) *reinterpret_cast<Quad*>(records + static_cast<std::size_t>(lane) * stride) = quad;
+        if (lane < lanes) store_lane(lane, quad);
     });
 }
 /// Two vectors for each node from `offset` on.
@@ -39,14 +43,8 @@ PLIANT_INLINE void store_records(float* records, std::ptrdiff_t offset, const Ve
                                  std::ptrdiff_t lanes)
 {
     float* to = records + static_cast<std::size_t>(offset) * state_size;
-    if (lanes > width) lanes = width;
-    if (lanes == width) {
-        store_vectors<state_size>(to, a, width);
-        store_vectors<state_size>(to + vector_size, b, width);
-    } else {
-        store_vectors<state_size>(to, a, lanes);
-        store_vectors<state_size>(to + vector_size, b, lanes);
-    }
+    store_vectors<state_size>(to, a, lanes);
+    store_vectors<state_size>(to + vector_size, b, lanes);
 }
 
 /// In packs of 16 nodes, those of padding as well.
@@ -138,9 +136,6 @@ __attribute__((flatten)) void list_step(const ListArguments& a, std::size_t firs
                                         std::size_t end_slice)
 {
     using Bits = LaneTypes<width>::Bits;
-    const StepConstants<float>& c = *a.constants;
-    const Vector gravity = spread_vector<Number>(c.gravity);
-    const Number dt(c.dt), decay(c.decay), thickness(c.thickness);
     /// The force of an entry of each lane, with its sign.
     const auto force_of = [&](const std::uint32_t* entry) {
         Vector f = vectors_from_quads<width>(
@@ -162,12 +157,7 @@ __attribute__((flatten)) void list_step(const ListArguments& a, std::size_t firs
             if (a.external_force.x) force = force + load(a.external_force, offset);
             const L::Motion now = {load(a.position, offset), load(a.velocity, offset)};
             const Number w = Number::load(a.inverse_mass + offset);
-            L::Motion next;
-            next.velocity = L::velocity_step(now.velocity, force, w, gravity, decay, dt);
-            next.position = L::position_step(now.position, next.velocity, dt);
-            for (std::size_t k = 0; k < a.collider_count; ++k)
-                next = L::contact_step(now, next, spread_collider<L::Collider, Number>(a.colliders[k]),
-                                       thickness, w, dt);
+            const L::Motion next = stepped(a, now, force, w);
             store_some(a.next_position, offset, next.position, lanes);
             store_some(a.next_velocity, offset, next.velocity, lanes);
             store_records(a.next_state, offset, next.position, next.velocity, lanes);

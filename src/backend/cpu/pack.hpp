@@ -52,12 +52,6 @@ struct Pack {
 
     static Pack load(const float* p) { return Lanes(*reinterpret_cast<const UnalignedLanes*>(p)); }
     void store(float* p) const { *reinterpret_cast<UnalignedLanes*>(p) = lanes; }
-    static Pack gather(const float* base, const std::uint32_t* index)
-    {
-        Lanes a;
-        for (int k = 0; k < W; ++k) a[k] = base[index[k]];
-        return a;
-    }
 
     friend Pack operator+(Pack a, Pack b) { return a.lanes + b.lanes; }
     friend Pack operator-(Pack a, Pack b) { return a.lanes - b.lanes; }

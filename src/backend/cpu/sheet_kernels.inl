@@ -89,20 +89,12 @@ PLIANT_INLINE void spring_forces_from(const SheetArguments& a, const Block& bloc
 PLIANT_INLINE void move_nodes(const SheetArguments& a, const Vectors& carried, const Block& block,
                               std::ptrdiff_t in_chunk, const ChunkForces& forces)
 {
-    const StepConstants<float>& c = *a.constants;
     const auto at = [&](int n, std::ptrdiff_t shift) { return forces.at(n, in_chunk + shift); };
     Vector force = load(carried, block.column) - at(1, -2) - at(0, -1);
     force = force + at(0, 0) + at(1, 0) + at(2, 0) + at(3, 0) + at(4, 0) + at(5, 0);
     if (a.external_force.x) force = force + load(a.external_force, block.offset);
     const L::Motion now = {load(a.position, block.offset), load(a.velocity, block.offset)};
-    const Number w = Number::load(a.inverse_mass + block.offset), dt(c.dt);
-    L::Motion next;
-    next.velocity =
-        L::velocity_step(now.velocity, force, w, spread_vector<Number>(c.gravity), Number(c.decay), dt);
-    next.position = L::position_step(now.position, next.velocity, dt);
-    for (std::size_t k = 0; k < a.collider_count; ++k)
-        next = L::contact_step(now, next, spread_collider<L::Collider, Number>(a.colliders[k]),
-                               Number(c.thickness), w, dt);
+    const L::Motion next = stepped(a, now, force, Number::load(a.inverse_mass + block.offset));
     store(a.next_position, block.offset, next.position);
     store(a.next_velocity, block.offset, next.velocity);
 }

@@ -40,6 +40,7 @@ public:
     /// After a call: what it has written into the planes it may have left here, too.
     void follow(const Call& call)
     {
+        if (records_[0].empty()) return;
         const bool leaves_records =
             call.pass == Pass::list_step || call.pass == Pass::ring_step || call.pass == Pass::volume_correct;
         for (const Resource resource : description_of(call.pass).writes) {
