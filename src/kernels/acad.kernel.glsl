@@ -28,6 +28,22 @@ KERNEL real excess(real length2, real rest2)
     return acad_has_compression() ? largest(over, acad_below2() * rest2 - length2) : over;
 }
 
+// 1 where there is such a spring and it is beyond the threshold.
+KERNEL real counted_over(int k, int o, real length2)
+{
+    mask over = acad_has_memory() ? is_overstretched(length2, sheet_rest(k), load(plane_mark + k, o) > 0.0f)
+                                  : excess(length2, sheet_rest(k) * sheet_rest(k)) > 0.0f;
+    return choose(over, load(plane_scale + k, o), real(0.0f));
+}
+
+// Whether a step asks for a spring at all. A bend spring of a sheet is no longer than the two structural ones on its line,
+// and not beyond the threshold while they are not.
+KERNEL bool is_tested(int k)
+{
+    return sheet_has(k) && (k < 4 || !sheet_has(0) || acad_has_compression() || acad_has_memory());
+}
+
+// The sum says whether there is something to solve; sheet_marks counts.
 KERNEL void sheet_limits(int o)
 {
     vec3 x = node_next_position(o);
@@ -35,7 +51,7 @@ KERNEL void sheet_limits(int o)
     if (!acad_has_memory()) {  // then nothing is counted where no spring is beyond
         real most = real(-1.0f);
         UNROLL for (int k = 0; k < 6; ++k) {
-            if (!sheet_has(k)) continue;
+            if (!is_tested(k)) continue;
             vec3 d = node_next_position(o + forward_offset(k)) - x;
             real over = excess(dot3(d, d), sheet_rest(k) * sheet_rest(k));
             most = largest(most, inside ? over : choose(load(plane_scale + k, o) > 0.0f, over, real(-1.0f)));
@@ -43,11 +59,9 @@ KERNEL void sheet_limits(int o)
         if (!any_lane(most > 0.0f)) return;
     }
     for (int k = 0; k < 6; ++k) {
-        if (!sheet_has(k)) continue;
+        if (!is_tested(k)) continue;
         vec3 d = node_next_position(o + forward_offset(k)) - x;
-        mask over = acad_has_memory() ? is_overstretched(dot3(d, d), sheet_rest(k), load(plane_mark + k, o) > 0.0f)
-                                      : excess(dot3(d, d), sheet_rest(k) * sheet_rest(k)) > 0.0f;
-        sums[0] = sums[0] + choose(over, load(plane_scale + k, o), real(0.0f));
+        sums[0] = sums[0] + counted_over(k, o, dot3(d, d));
     }
 }
 
@@ -56,6 +70,7 @@ KERNEL void sheet_marks(int o)
     vec3 x = node_next_position(o);
     for (int k = 0; k < 6; ++k) {
         vec3 d = node_next_position(o + forward_offset(k)) - x;
+        sums[0] = sums[0] + counted_over(k, o, dot3(d, d));
         mask held = load(plane_mark + k, o) > real(acad_has_memory() ? 0.0f : 2.0f);
         mask near = both(load(plane_scale + k, o) > 0.0f, is_near_threshold(dot3(d, d), sheet_rest(k), held));
         store(plane_mark + k, o, choose(near, real(1.0f), real(0.0f)));

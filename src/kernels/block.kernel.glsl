@@ -36,6 +36,15 @@ KERNEL Symmetric plus(Symmetric a, Symmetric b)
     return symmetric(a.xx + b.xx, a.xy + b.xy, a.xz + b.xz, a.yy + b.yy, a.yz + b.yz, a.zz + b.zz);
 }
 
+KERNEL Symmetric minus(Symmetric a, Symmetric b)
+{
+    return symmetric(a.xx - b.xx, a.xy - b.xy, a.xz - b.xz, a.yy - b.yy, a.yz - b.yz, a.zz - b.zz);
+}
+KERNEL Symmetric scaled(Symmetric a, real s)
+{
+    return symmetric(a.xx * s, a.xy * s, a.xz * s, a.yy * s, a.yz * s, a.zz * s);
+}
+
 KERNEL Symmetric where_else_zero(mask m, Symmetric a)
 {
     real zero = real(0.0f);

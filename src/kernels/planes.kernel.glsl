@@ -5,23 +5,24 @@ const int plane_r = 0;         // right-hand side, later residual of the linear 
 const int plane_z = 3;         // correction, and its second copy, m
 const int plane_w = 6;
 const int plane_s = 9;         // residual of the correction, N
-const int plane_block = 12;    // couplings to the four forward neighbours of a sheet: B of -B at (i, j), N/m
-const int plane_row_sum = 36;  // what a row of the operator sums up to: inertia, pins, contact, N/m
-const int plane_factor = 42;   // the diagonal block, factored
-const int level_planes = 48;
+const int plane_mass = 12;     // m / dt^2, N/m; 0 for a pinned node. This and the next two: of the cloth alone
+const int plane_grip = 13;     // friction: force, N
+const int plane_active = 14;   // how many active constraints a node holds
+// The operator, which the CPU keeps together node by node (SolverKernels::at):
+const int plane_block = 15;    // couplings to the four forward neighbours of a sheet: B of -B at (i, j), N/m
+const int plane_row_sum = 39;  // what a row of the operator sums up to: inertia, pins, contact, N/m
+const int plane_factor = 45;   // the diagonal block, factored
+const int level_planes = 51;
 
-const int plane_q = 48;        // m, position at the start of the step
-const int plane_u = 51;        // m, displacement that the last Newton iteration ended with
-const int plane_y = 54;        // m, displacement that inertia, gravity and wind alone would give
-const int plane_t = 57;        // m, displacement that is looked at
-const int plane_x = 60;        // m, the Newton step
-const int plane_p = 63;        // direction of conjugate gradients, and what the operator makes of it
-const int plane_ap = 66;
-const int plane_mass = 69;     // m / dt^2, N/m; 0 for a pinned node
-const int plane_slide = 70;    // friction: normal, displacement of the surface (m), force (N)
-const int plane_drag = 73;
-const int plane_grip = 76;
-const int plane_active = 77;   // how many active constraints a node holds
+const int plane_q = 51;        // m, position at the start of the step
+const int plane_u = 54;        // m, displacement that the last Newton iteration ended with
+const int plane_y = 57;        // m, displacement that inertia, gravity and wind alone would give
+const int plane_t = 60;        // m, displacement that is looked at
+const int plane_x = 63;        // m, the Newton step
+const int plane_p = 66;        // direction of conjugate gradients, and what the operator makes of it
+const int plane_ap = 69;
+const int plane_slide = 72;    // friction: normal, displacement of the surface (m)
+const int plane_drag = 75;
 const int node_planes = 78;
 
 // Of a sheet's node, one for each of its six forward springs; of a mesh they lie by spring.

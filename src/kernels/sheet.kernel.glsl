@@ -188,6 +188,11 @@ KERNEL vec3 coupling_force(int blocks, int k, int x, int o)
 {
     return product(load6(blocks, o), load3(x, o) - load3(x, o + forward_offset(k)));
 }
+// The same of the coupling that leads here, from the node i.
+KERNEL vec3 coupling_force_behind(int blocks, int k, int x, int i)
+{
+    return product(load6_anywhere(blocks, i), load3(x, i) - load3(x, i + forward_offset(k)));
+}
 
 // (A x) of a node, from the forces of the couplings that lead ahead from it, and of those that come from behind.
 KERNEL vec3 sum_of_forces(int x, int o, vec3 ahead[4], vec3 behind[4])
@@ -203,71 +208,129 @@ KERNEL vec3 row_product(int x, int o)
     vec3 ahead[4], behind[4];
     UNROLL for (int k = 0; k < 4; ++k) {
         ahead[k] = coupling_force(plane_block + 6 * k, k, x, o);
-        behind[k] = coupling_force(plane_block + 6 * k, k, x, o - forward_offset(k));
+        behind[k] = coupling_force_behind(plane_block + 6 * k, k, x, o - forward_offset(k));
     }
     vec3 y = sum_of_forces(x, o, ahead, behind);
     if (exact_bend()) {
         vec3 bend = vec3(real(0.0f), real(0.0f), real(0.0f));
         UNROLL for (int k = 4; k < 6; ++k)
             bend = bend + coupling_force(plane_bend + 6 * (k - 4), k, x, o) -
-                   coupling_force(plane_bend + 6 * (k - 4), k, x, o - forward_offset(k));
+                   coupling_force_behind(plane_bend + 6 * (k - 4), k, x, o - forward_offset(k));
         y = y + bend * choose(load(plane_mass, o) > 0.0f, real(1.0f), real(0.0f));
     }
     return y;
 }
 
-// Bilinear interpolation: how much of a coarse node is in a fine one that lies (rows, columns) from it.
-KERNEL float interpolation(int rows, int columns)
+// The operator of this level from that of the finer one, by bilinear interpolation P: P^T A P, columns first and then rows.
+// What is between has the rows of the finer level and the columns of this one.
+struct HalfCoarse
 {
-    int a = rows < 0 ? -rows : rows, b = columns < 0 ? -columns : columns;
-    if (a > 1 || b > 1) return 0.0f;
-    return (a == 1 ? 0.5f : 1.0f) * (b == 1 ? 0.5f : 1.0f);
+    Symmetric row_sum, diagonal, block_0, block_1, block_2, block_3;
+};
+
+// What of a fine node does not lead along its row: its row sum, and the couplings to the rows below and above.
+KERNEL Symmetric held_across(Symmetric row_sum, Symmetric below_1, Symmetric below_2, Symmetric below_3, Symmetric above_1,
+                             Symmetric above_2, Symmetric above_3)
+{
+    return plus(plus(plus(row_sum, below_1), plus(below_2, below_3)), plus(plus(above_1, above_2), above_3));
 }
 
-// The operator of this level from that of the finer one, whose node over this one is at f:
-//   A(I, J) = sum over fine couplings of (w_iI - w_jI) (w_iJ - w_jJ) B_ij + sum over fine nodes of w_iI w_iJ s_i
+// A coarse node over the fine one at `here`, between two that are `left` and `right`. With the weights 1/2, 1, 1/2 the
+// coupling along the row is (b + b' - h) / 4, h being what holds the fine node that both coarse ones share.
+KERNEL Symmetric half_along(Symmetric along_here, Symmetric along_right, Symmetric held_right)
+{
+    return scaled(minus(plus(along_here, along_right), held_right), real(0.25f));
+}
+KERNEL Symmetric half_back(Symmetric here_1, Symmetric left_1, Symmetric left_2)
+{
+    return plus_scaled(scaled(plus(here_1, left_1), real(0.5f)), left_2, real(0.25f));
+}
+KERNEL Symmetric half_down(Symmetric here_1, Symmetric here_2, Symmetric here_3, Symmetric right_1, Symmetric right_2,
+                           Symmetric left_2, Symmetric left_3)
+{
+    Symmetric slanted = plus(plus(here_1, here_3), plus(right_1, left_3));
+    return plus_scaled(plus_scaled(here_2, slanted, real(0.5f)), plus(right_2, left_2), real(0.25f));
+}
+KERNEL Symmetric half_ahead(Symmetric here_3, Symmetric right_3, Symmetric right_2)
+{
+    return plus_scaled(scaled(plus(here_3, right_3), real(0.5f)), right_2, real(0.25f));
+}
+KERNEL Symmetric half_diagonal(Symmetric held_here, Symmetric held_left, Symmetric held_right, Symmetric along_before,
+                               Symmetric along_left, Symmetric along_here, Symmetric along_right)
+{
+    Symmetric along = plus(plus(along_before, along_left), plus(along_here, along_right));
+    return plus_scaled(held_here, plus(plus(held_left, held_right), along), real(0.25f));
+}
+KERNEL Symmetric half_sum(Symmetric here, Symmetric left, Symmetric right)
+{
+    return plus_scaled(here, plus(right, left), real(0.5f));
+}
+
+KERNEL Symmetric held_at(int i)
+{
+    int above = i - finer.stride;
+    return held_across(finer_load6(plane_row_sum, i), finer_load6(plane_block + 6, i),
+                       finer_load6(finer_coupling(2), i), finer_load6(plane_block + 18, i),
+                       finer_load6(plane_block + 6, above + 1), finer_load6(finer_coupling(2), above),
+                       finer_load6(plane_block + 18, above - 1));
+}
+KERNEL Symmetric half_along_at(int i)
+{
+    return half_along(finer_load6(finer_coupling(0), i), finer_load6(finer_coupling(0), i + 1), held_at(i + 1));
+}
+KERNEL Symmetric half_back_at(int i)
+{
+    return half_back(finer_load6(plane_block + 6, i), finer_load6(plane_block + 6, i - 1), finer_load6(finer_coupling(2), i - 1));
+}
+KERNEL HalfCoarse half_coarse_at(int i)
+{
+    HalfCoarse between;
+    int along = finer_coupling(0), down = finer_coupling(2);
+    Symmetric held_right = held_at(i + 1);
+    between.row_sum =
+        half_sum(finer_load6(plane_row_sum, i), finer_load6(plane_row_sum, i - 1), finer_load6(plane_row_sum, i + 1));
+    between.diagonal = half_diagonal(held_at(i), held_at(i - 1), held_right, finer_load6(along, i - 2),
+                                  finer_load6(along, i - 1), finer_load6(along, i), finer_load6(along, i + 1));
+    between.block_0 = half_along(finer_load6(along, i), finer_load6(along, i + 1), held_right);
+    between.block_1 = half_back_at(i);
+    between.block_2 = half_down(finer_load6(plane_block + 6, i), finer_load6(down, i), finer_load6(plane_block + 18, i),
+                             finer_load6(plane_block + 6, i + 1), finer_load6(down, i + 1), finer_load6(down, i - 1),
+                             finer_load6(plane_block + 18, i - 1));
+    between.block_3 =
+        half_ahead(finer_load6(plane_block + 18, i), finer_load6(plane_block + 18, i + 1), finer_load6(down, i + 1));
+    return between;
+}
+
+// The rows: of the fine row over this one, and of those above and below; of the columns beside, what leads here.
+KERNEL void leave_coarsened(int o, HalfCoarse above, HalfCoarse here, HalfCoarse below, Symmetric above_right_1,
+                            Symmetric here_right_1, Symmetric below_left_0)
+{
+    Symmetric diagonal = minus(plus_scaled(here.diagonal, plus(above.diagonal, below.diagonal), real(0.25f)),
+                               plus(above.block_2, here.block_2));
+    Symmetric slanted = plus(plus(above_right_1, here.block_3), plus(here_right_1, above.block_3));
+    mask inside = inside_level();  // what lies beyond a row's end is padding, and stays empty
+    store6(plane_row_sum, o, where_else_zero(inside, half_sum(here.row_sum, above.row_sum, below.row_sum)));
+    store6(plane_block, o,
+           where_else_zero(inside, plus_scaled(plus_scaled(here.block_0, slanted, real(0.5f)),
+                                               plus(below.block_0, above.block_0), real(0.25f))));
+    store6(plane_block + 6, o,
+           where_else_zero(inside, plus_scaled(scaled(plus(here.block_1, below.block_1), real(0.5f)), below_left_0,
+                                               real(0.25f))));
+    store6(plane_block + 12, o,
+           where_else_zero(inside, plus_scaled(scaled(plus(here.block_2, below.block_2), real(0.5f)), below.diagonal,
+                                               real(-0.25f))));
+    store6(plane_block + 18, o,
+           where_else_zero(inside, plus_scaled(scaled(plus(here.block_3, below.block_3), real(0.5f)), below.block_0,
+                                               real(0.25f))));
+    store6(plane_factor, o, where_else_zero(inside, factored(diagonal, real(0.0f))));
+}
+
+// The node of the finer level that lies over this one is at f.
 KERNEL void sheet_coarsen(int o, int f)
 {
-    Symmetric zero = symmetric_diagonal(real(0.0f));
-    Symmetric diagonal = zero, row_sum = zero, block_0 = zero, block_1 = zero, block_2 = zero, block_3 = zero;
-    UNROLL for (int row = -2; row <= 1; ++row)
-        UNROLL for (int column = -2; column <= 2; ++column) {
-            int i = f + row * finer.stride + column;
-            float here = interpolation(row, column);
-            float here_0 = interpolation(row, column - 2), here_1 = interpolation(row - 2, column + 2);
-            float here_2 = interpolation(row - 2, column), here_3 = interpolation(row - 2, column - 2);
-            if (here > 0.0f) {
-                Symmetric s = finer_load6(plane_row_sum, i);
-                row_sum = plus_scaled(row_sum, s, real(here));
-                diagonal = plus_scaled(diagonal, s, real(here * here));
-                if (here_0 > 0.0f) block_0 = plus_scaled(block_0, s, real(-here * here_0));
-                if (here_1 > 0.0f) block_1 = plus_scaled(block_1, s, real(-here * here_1));
-                if (here_2 > 0.0f) block_2 = plus_scaled(block_2, s, real(-here * here_2));
-                if (here_3 > 0.0f) block_3 = plus_scaled(block_3, s, real(-here * here_3));
-            }
-            UNROLL for (int k = 0; k < 4; ++k) {
-                int down = k == 0 ? 0 : 1, right = k == 1 ? -1 : k == 2 ? 0 : 1;
-                float change = here - interpolation(row + down, column + right);
-                if (change == 0.0f) continue;
-                Symmetric b = finer_load6(finer_coupling(k), i);
-                diagonal = plus_scaled(diagonal, b, real(change * change));
-                float change_0 = here_0 - interpolation(row + down, column + right - 2);
-                float change_1 = here_1 - interpolation(row + down - 2, column + right + 2);
-                float change_2 = here_2 - interpolation(row + down - 2, column + right);
-                float change_3 = here_3 - interpolation(row + down - 2, column + right - 2);
-                if (change_0 != 0.0f) block_0 = plus_scaled(block_0, b, real(-change * change_0));
-                if (change_1 != 0.0f) block_1 = plus_scaled(block_1, b, real(-change * change_1));
-                if (change_2 != 0.0f) block_2 = plus_scaled(block_2, b, real(-change * change_2));
-                if (change_3 != 0.0f) block_3 = plus_scaled(block_3, b, real(-change * change_3));
-            }
-        }
-    mask inside = inside_level();  // what lies beyond a row's end is padding, and stays empty
-    store6(plane_row_sum, o, where_else_zero(inside, row_sum));
-    store6(plane_block, o, where_else_zero(inside, block_0));
-    store6(plane_block + 6, o, where_else_zero(inside, block_1));
-    store6(plane_block + 12, o, where_else_zero(inside, block_2));
-    store6(plane_block + 18, o, where_else_zero(inside, block_3));
-    store6(plane_factor, o, where_else_zero(inside, factored(diagonal, real(0.0f))));
+    int above = f - finer.stride, below = f + finer.stride;
+    leave_coarsened(o, half_coarse_at(above), half_coarse_at(f), half_coarse_at(below), half_back_at(above + 2),
+                    half_back_at(f + 2), half_along_at(below - 2));
 }
 
 // The residual of the finer level, gathered, and the first correction of this one.
@@ -276,7 +339,7 @@ KERNEL void sheet_restrict(int o, int f)
     vec3 r = vec3(real(0.0f), real(0.0f), real(0.0f));
     UNROLL for (int row = -1; row <= 1; ++row)
         UNROLL for (int column = -1; column <= 1; ++column)
-            r = plus_scaled(r, finer_load3(plane_s, f + row * finer.stride + column), real(interpolation(row, column)));
+            r = plus_scaled(r, finer_load3(plane_s, f + row * finer.stride + column), real((row == 0 ? 1.0f : 0.5f) * (column == 0 ? 1.0f : 0.5f)));
     Symmetric factor = load6(plane_factor, o);
     r = choose(factor.xx > 0.0f, r, vec3(real(0.0f), real(0.0f), real(0.0f)));
     store3(plane_r, o, r);

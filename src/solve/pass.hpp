@@ -104,7 +104,8 @@ constexpr SumSlots sum_slots_of(Pass pass)
         case Pass::acad_begin:
         case Pass::step_begin: return {sum_load, 1};
         case Pass::mesh_limits:
-        case Pass::sheet_limits: return {sum_active, 1};
+        case Pass::sheet_limits:
+        case Pass::sheet_marks: return {sum_active, 1};
         case Pass::step_end: return {sum_lost, 2};  // and active constraints
         case Pass::paper_springs: return {sum_active, 1};
         case Pass::paper_apply: return {sum_curvature, 1};

@@ -210,6 +210,19 @@ inline Floats even_lanes(Floats a, Floats b)
     }
 }
 
+/// Lanes 1, 3, ... of a, then of b.
+template <int W, class Floats>
+inline Floats odd_lanes(Floats a, Floats b)
+{
+    if constexpr (W == 8) {
+        using Integers = typename LaneTypes<W>::Integers;
+        const Floats pairs = __builtin_shuffle(a, b, Integers{1, 3, 9, 11, 5, 7, 13, 15});
+        return __builtin_shuffle(pairs, Integers{0, 1, 4, 5, 2, 3, 6, 7});
+    } else {
+        return every_lane<W, 1, 2>(a, b);
+    }
+}
+
 /// By turns a lane of a and one of b, from lane `first` on.
 template <int W, int first, class Floats>
 inline Floats lanes_by_turns(Floats a, Floats b)
@@ -227,13 +240,15 @@ struct Lanes<Pack<W>> {
     static T load(const float* p) { return T::load(p); }
     static T load_even(const float* p) { return even_lanes<W>(T::load(p).lanes, T::load(p + W).lanes); }
     static void store(float* p, T a) { a.store(p); }
-    static void add_by_turns(float* p, T even, T odd, const float* where)
+    static T even_of(T a, T b) { return even_lanes<W>(a.lanes, b.lanes); }
+    static T odd_of(T a, T b) { return odd_lanes<W>(a.lanes, b.lanes); }
+    static void add_by_turns(float* p, T even, T odd, const float* where_low, const float* where_high)
     {
         const T zero(0.0f);
         const T low = lanes_by_turns<W, 0>(even.lanes, odd.lanes);
         const T high = lanes_by_turns<W, W / 2>(even.lanes, odd.lanes);
-        (T::load(p) + NumberTraits<T>::choose(T::load(where) > zero, low, zero)).store(p);
-        (T::load(p + W) + NumberTraits<T>::choose(T::load(where + W) > zero, high, zero)).store(p + W);
+        (T::load(p) + NumberTraits<T>::choose(T::load(where_low) > zero, low, zero)).store(p);
+        (T::load(p + W) + NumberTraits<T>::choose(T::load(where_high) > zero, high, zero)).store(p + W);
     }
     static T spread(float a) { return T(a); }
     static float first(T a) { return a.lanes[0]; }

@@ -12,10 +12,10 @@ struct Lanes {
     static T load(const T* p) { return *p; }
     static T load_even(const T* p) { return *p; }
     static void store(T* p, T a) { *p = a; }
-    static void add_by_turns(T* p, T even, T odd, const T* where)
+    static void add_by_turns(T* p, T even, T odd, const T* where_low, const T* where_high)
     {
-        if (where[0] > 0) p[0] += even;
-        if (where[1] > 0) p[1] += odd;
+        if (*where_low > 0) p[0] += even;
+        if (*where_high > 0) p[1] += odd;
     }
     static T spread(T a) { return a; }
     static T first(T a) { return a; }

@@ -167,3 +167,56 @@ KERNEL void gather_row(SpringRows& springs, SumSlots slots, int row, const RowSp
         summed(slots, part_of(row, span.first + group), group,
                group + sum_columns < span.columns ? group + sum_columns : span.columns, at_node);
 }
+
+/// sheet_limits where stretch alone counts and nothing is remembered, as in nearly every step of ACAD: a
+/// group of columns in which no spring is beyond leaves no sum, and is left as soon as that is known.
+void limits(Pass pass, int begin, int end)
+{
+    const bool plain = sheet_has(0) && sheet_has(1) && !acad_has_memory() && !acad_has_compression();
+    if (Lanes<T>::count == 1 || !plain) return nodes<&SolverKernels::sheet_limits>(pass, begin, end);
+    const SumSlots slots = sum_slots_of(pass);
+    SolverKernels self = *this;
+    const int per_row = (level.columns + segment_columns - 1) / segment_columns;
+    for (int segment = begin; segment < end; ++segment) {
+        const int row = segment / per_row, first = segment % per_row * segment_columns;
+        const int last = first + segment_columns < level.columns ? first + segment_columns : level.columns;
+        for (int group = first; group < last; group += sum_columns) {
+            const int group_end = group + sum_columns < last ? group + sum_columns : last;
+            if (self.is_within_limits(row, group, group_end))
+                context.parts[int(slots.first) * context.part_stride + part_of(row, group)] = Number(0);
+            else
+                self.nodes_of_group<&SolverKernels::sheet_limits>(slots, row, group, group_end);
+        }
+    }
+}
+KERNEL bool is_within_limits(int row, int begin, int end)
+{
+    const auto limit_of = [&](int k) { return acad_above2() * (sheet_rest(k) * sheet_rest(k)); };
+    const real along_row = limit_of(0), along_column = limit_of(2), across = limit_of(1);
+    const auto excess_at = [&](int o, int k, vec3 x, real limit, auto is_inside) {
+        const vec3 d = node_next_position(o + forward_offset(k)) - x;
+        const real over = dot3(d, d) - limit;
+        if constexpr (is_inside)
+            return over;
+        else
+            return choose(load(plane_scale + k, o) > 0.0f, over, real(-1.0f));
+    };
+    const auto most_at = [&](int column, auto is_inside) {
+        const int o = level_offset(row, column);
+        const vec3 x = node_next_position(o);
+        return largest(
+            largest(excess_at(o, 0, x, along_row, is_inside), excess_at(o, 2, x, along_column, is_inside)),
+            largest(excess_at(o, 1, x, across, is_inside), excess_at(o, 3, x, across, is_inside)));
+    };
+    const std::bool_constant<true> inside;
+    const std::bool_constant<false> at_border;
+    real most = real(-1.0f);
+    int column = begin;
+    if (row + 1 < level.rows) {
+        if (column == 0) most = most_at(column, at_border), column += Lanes<T>::count;
+        for (; column < end && column + Lanes<T>::count < level.columns; column += Lanes<T>::count)
+            most = largest(most, most_at(column, inside));
+    }
+    for (; column < end; column += Lanes<T>::count) most = largest(most, most_at(column, at_border));
+    return !any_lane(most > 0.0f);
+}

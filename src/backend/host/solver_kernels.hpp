@@ -41,17 +41,47 @@ struct SolverKernels {
           finer_base_(c.arena + finer.base),
           size_(level.size),
           finer_size_(finer.size),
+          operator_(operator_of(level)),
+          finer_operator_(operator_of(finer)),
           detail_(call.detail),
           is_cloth_(call.level == 0),
           finer_is_cloth_(call.level == 1)
     {
     }
 
+    // The planes of the operator lie together by groups of columns, for a pass reads all of them: a stream of
+    // memory instead of 36, which neither the prefetcher nor the buffers of translations can follow.
+    static constexpr int group_columns = 16, operator_planes = level_planes - plane_block;
+    static constexpr bool is_of_operator(int plane) { return plane >= plane_block && plane < level_planes; }
+    static int in_groups(int plane, int o)
+    {
+        const auto place = static_cast<unsigned>(o);
+        return static_cast<int>(place / group_columns * (operator_planes * group_columns) +
+                                place % group_columns) +
+               (plane - plane_block) * group_columns;
+    }
+    /// Where offset 0 would be. On a mesh nothing lies before the one row's offsets, and its planes begin
+    /// there.
+    Number* operator_of(const SolverLevel& of) const
+    {
+        const int first = of.edge_size > 0 ? context.border_rows * of.stride : 0;
+        return context.arena + (of.base + plane_block * of.size + first - in_groups(plane_block, first));
+    }
+
     // Planes are addressed by pointers and their distance, three from one: that is what the processor does
     // for nothing.
     using Distance = decltype(static_cast<Number*>(nullptr) - static_cast<Number*>(nullptr));
-    Number* at(int plane, int o) const { return base_ + (plane * size_ + o); }
-    const Number* finer_at(int plane, int o) const { return finer_base_ + (plane * finer_size_ + o); }
+    Distance apart(int plane) const { return is_of_operator(plane) ? group_columns : size_; }
+    Distance finer_apart(int plane) const { return is_of_operator(plane) ? group_columns : finer_size_; }
+    Number* at(int plane, int o) const
+    {
+        return is_of_operator(plane) ? operator_ + in_groups(plane, o) : base_ + (plane * size_ + o);
+    }
+    const Number* finer_at(int plane, int o) const
+    {
+        return is_of_operator(plane) ? finer_operator_ + in_groups(plane, o)
+                                     : finer_base_ + (plane * finer_size_ + o);
+    }
     real load(int plane, int o) const { return Lanes<T>::load(at(plane, o)); }
     void store(int plane, int o, real a) const { Lanes<T>::store(at(plane, o), a); }
     template <auto load_one>
@@ -67,7 +97,21 @@ struct SolverKernels {
                 load_one(q), load_one(q + size), load_one(q + 2 * size)};
     }
     vec3 load3(int plane, int o) const { return three<&Lanes<T>::load>(at(plane, o), size_); }
-    Symmetric load6(int plane, int o) const { return six<&Lanes<T>::load>(at(plane, o), size_); }
+    Symmetric load6(int plane, int o) const { return six<&Lanes<T>::load>(at(plane, o), apart(plane)); }
+    /// Where the lanes may reach into the next group.
+    Symmetric load6_anywhere(int plane, int o) const
+    {
+        const int rest = group_columns - static_cast<int>(static_cast<unsigned>(o) % group_columns);
+        if (Lanes<T>::count <= rest || !is_of_operator(plane)) return load6(plane, o);
+        const Number* p = at(plane, o);
+        const Number* next = at(plane, o + rest) - rest;
+        const mask here = Lanes<T>::first_lanes(rest);
+        const auto either = [&](int k) {
+            return choose(here, Lanes<T>::load(p + k * group_columns),
+                          Lanes<T>::load(next + k * group_columns));
+        };
+        return {either(0), either(1), either(2), either(3), either(4), either(5)};
+    }
     static void put3(Number* p, Distance size, real x, real y, real z)
     {
         Lanes<T>::store(p, x);
@@ -78,8 +122,9 @@ struct SolverKernels {
     void store6(int plane, int o, Symmetric a) const
     {
         Number* p = at(plane, o);
-        put3(p, size_, a.xx, a.xy, a.xz);
-        put3(p + 3 * size_, size_, a.yy, a.yz, a.zz);
+        const Distance size = apart(plane);
+        put3(p, size, a.xx, a.xy, a.xz);
+        put3(p + 3 * size, size, a.yy, a.yz, a.zz);
     }
     /// Every other node of the finer level, one for each lane.
     vec3 finer_load3(int plane, int o) const
@@ -88,16 +133,17 @@ struct SolverKernels {
     }
     Symmetric finer_load6(int plane, int o) const
     {
-        return six<&Lanes<T>::load_even>(finer_at(plane, o), finer_size_);
+        static_assert(Lanes<T>::count == 1, "packs coarsen by rows");
+        return six<&Lanes<T>::load>(finer_at(plane, o), finer_apart(plane));
     }
     /// Adds to the nodes of the finer level at o and after it, by turns, where there are free nodes.
     void finer_add3(int plane, int o, vec3 even, vec3 odd) const
     {
-        const Number* is_there = finer_at(plane_factor, o);
+        const Number *low = finer_at(plane_factor, o), *high = finer_at(plane_factor, o + Lanes<T>::count);
         Number* p = finer_base_ + (plane * finer_size_ + o);
-        Lanes<T>::add_by_turns(p, even.x, odd.x, is_there);
-        Lanes<T>::add_by_turns(p + finer_size_, even.y, odd.y, is_there);
-        Lanes<T>::add_by_turns(p + 2 * finer_size_, even.z, odd.z, is_there);
+        Lanes<T>::add_by_turns(p, even.x, odd.x, low, high);
+        Lanes<T>::add_by_turns(p + finer_size_, even.y, odd.y, low, high);
+        Lanes<T>::add_by_turns(p + 2 * finer_size_, even.z, odd.z, low, high);
     }
     int finer_coupling(int k) const
     {
@@ -294,7 +340,7 @@ struct SolverKernels {
             case Pass::sheet_gather:
                 if (is_last_look()) return nodes<&K::sheet_energy>(pass, begin, end);
                 return gathers(pass, begin, end);
-            case Pass::sheet_coarsen: return cells<&K::sheet_coarsen>(begin, end, level.rows, level.columns);
+            case Pass::sheet_coarsen: return coarsens(begin, end);
             case Pass::linear_begin: return nodes<&K::linear_begin>(pass, begin, end);
             case Pass::level_smooth:
                 return products<&K::level_smooth, &K::leave_smoothed>(pass, source_plane(), begin, end);
@@ -313,7 +359,7 @@ struct SolverKernels {
             case Pass::newton_move: return nodes<&K::newton_move>(pass, begin, end);
             case Pass::search_move: return nodes<&K::search_move>(pass, begin, end);
             case Pass::step_end: return nodes<&K::step_end>(pass, begin, end);
-            case Pass::sheet_limits: return nodes<&K::sheet_limits>(pass, begin, end);
+            case Pass::sheet_limits: return limits(pass, begin, end);
             case Pass::sheet_marks: return nodes<&K::sheet_marks>(pass, begin, end);
             case Pass::acad_begin: return nodes<&K::acad_begin>(pass, begin, end);
             case Pass::acad_end: return nodes<&K::acad_end>(pass, begin, end);
@@ -452,13 +498,18 @@ private:
                 continue;
             }
             for (int group = first; group < last; group += sum_columns)
-                self.summed(slots, part_of(row, group), group,
-                            group + sum_columns < last ? group + sum_columns : last, [&](int column) {
-                                self.all_there_ = row + 2 < level.rows && column > 0 &&
-                                                  column + Lanes<T>::count + 2 <= level.columns;
-                                (self.*kernel)(offset + column);
-                            });
+                self.template nodes_of_group<kernel>(slots, row, group,
+                                                     group + sum_columns < last ? group + sum_columns : last);
         }
+    }
+    template <auto kernel>
+    KERNEL void nodes_of_group(SumSlots slots, int row, int begin, int end)
+    {
+        const int offset = level_offset(row, 0);
+        summed(slots, part_of(row, begin), begin, end, [&](int column) {
+            all_there_ = row + 2 < level.rows && column > 0 && column + Lanes<T>::count + 2 <= level.columns;
+            (this->*kernel)(offset + column);
+        });
     }
     int part_of(int row, int column) const
     {
@@ -489,6 +540,8 @@ private:
 
 #include "backend/host/sheet_rows.inl"
 
+#include "backend/host/coarse_rows.inl"
+
     template <auto kernel>
     void cells(int begin, int end, int rows, int columns)
     {
@@ -502,6 +555,7 @@ private:
 
     Number *base_, *finer_base_;
     Distance size_, finer_size_;
+    Number *operator_, *finer_operator_;
     mask inside_{};
     bool all_there_ = false;
     unsigned detail_;
