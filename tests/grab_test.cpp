@@ -84,6 +84,26 @@ TEST(Grab, AtRestTheSpringCarriesTheNode)
                 1e-6 * m * speed * speed);
 }
 
+TEST(Grab, AirTakesNothingOfThePull)
+{
+    const double m = 0.02, k = 37;
+    for (const Method method : {Method::mass_spring, Method::constraint}) {
+        Scene scene = loose_nodes();
+        scene.method = method;
+        for (SpringParameters* springs :
+             {&scene.cloth_handle(0)->springs.structural, &scene.cloth_handle(0)->springs.shear})
+            springs->role = SpringRole::off;
+        scene.cloth_handle(0).pin(std::uint32_t{0}).pin(std::uint32_t{2});
+        scene.cloth_handle(0)->damping = 5;
+        Simulation simulation(scene, on(Backend::cpu));
+        simulation.grab(0, 1, {0.5, 0.4, -0.5}, k, 1.0);
+        for (int frame = 0; frame < 300; ++frame) simulation.advance(1.0 / 60);
+        // What is still falls by g dt and is drawn up by as much, each step; 1e-5 m: the spacing of floats
+        // at 0.4 m and the settling of 5 s at 5 1/s.
+        EXPECT_NEAR(double{simulation.positions()[1].y}, 0.4 - m * g / k, 1e-5) << name_of(method);
+    }
+}
+
 TEST(Grab, APinnedNodeStays)
 {
     Simulation simulation(loose_nodes(), on(Backend::cpu));

@@ -35,7 +35,8 @@ struct FrameInput {
     /// By cloth: what is wanted of its bodies at the end of each step, or once where that does not change;
     /// see BodyModel::goal_at. Empty: what is wanted at the start.
     std::span<const std::vector<VolumeGoal>> goals = {};
-    GrabInput grab = {};  ///< of programs with the pass grab
+    GrabInput grab = {};  ///< what a hand does to one of the cloths, if it has hold of one
+    GrabInput grab_of(std::size_t cloth) const { return grab.cloth == cloth ? grab : GrabInput{}; }
 
     /// Colliders at the end of a step of the frame; the calls that know no collider may ask with any index.
     std::span<const PlacedCollider> colliders_at(std::uint32_t step) const

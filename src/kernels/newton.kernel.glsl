@@ -97,7 +97,12 @@ KERNEL void step_begin(int o)
     mask is_free = w > 0.0f;
     real mass = choose(is_free, node_mass(o) * inverse_step() * inverse_step(), real(0.0f));
     vec3 start = choose(is_free, v * step_length(), node_next_position(o) - q);
-    vec3 aim = (v * decay() + (gravity() + node_force(o) * w) * step_length()) * step_length();
+    // A hand aims, too, but does not move the start: that its node is ahead of what it hangs on is for Newton's method
+    // to find, and not a stretched spring to begin with.
+    vec3 pulled = v;
+    if (hand_is_near(o))
+        pulled = where_held(o, grabbed_velocity(q, v, hand_target(), gravity(), hand_pull(), hand_hold(), step_length()), v);
+    vec3 aim = (pulled * decay() + (gravity() + node_force(o) * w) * step_length()) * step_length();
     aim = choose(is_free, aim, start);
     store3(plane_q, o, q);
     store3(plane_t, o, start);

@@ -20,10 +20,13 @@ struct Hand {
     {
         return mass + step_length * (damping + step_length * stiffness);
     }
-    /// What the pass grab needs in a step.
-    GrabInput input(double step_length) const
+    /// What the pass grab needs in a step of a cloth in air that takes `air_damping` (1/s) of velocities. The
+    /// pull is given as velocity, of which the step then takes that part, so it is given that much more: else
+    /// what hangs from the hand would seem to weigh more than it does.
+    GrabInput input(double step_length, double air_damping) const
     {
-        const double inverse = 1 / mass_in(step_length);
+        const double decay = 1 - air_damping * step_length;
+        const double inverse = decay > 0 ? 1 / (decay * mass_in(step_length)) : 0;
         return {model, node, target, stiffness * step_length * inverse,
                 step_length * (damping + step_length * stiffness) * inverse};
     }

@@ -322,7 +322,8 @@ public:
     FrameInput input(double step) const
     {
         return {step,  static_cast<std::uint32_t>(scene.colliders.size()), placed, colliders_rest, attached,
-                goals, hand && step > 0 ? hand->input(step) : GrabInput{}};
+                goals,
+                hand && step > 0 ? hand->input(step, models[hand->model].parameters.damping) : GrabInput{}};
     }
 
     /// Makes the held node as heavy as it is in the hand, in steps of this length; with 0, as it is without.

@@ -10,6 +10,13 @@
 namespace pliant {
 namespace {
 
+/// Whether a step is one of append_constraint_step, which has the hand's pull within it.
+bool is_implicit(const ClothModel& cloth)
+{
+    return !cloth.is_body() && uses_solver(cloth.method) && cloth.solver != Solver::paper &&
+           (cloth.method != Method::acad || cloth.acad_implicit);
+}
+
 void append_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step, std::uint32_t parity,
                  std::vector<Call>& calls)
 {
@@ -19,10 +26,10 @@ void append_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t ste
         append_mass_spring_step(cloth, index, step, parity, calls);
     else if (cloth.solver == Solver::paper)
         append_paper_step(cloth, index, step, parity, calls);
-    else if (cloth.method == Method::acad && !cloth.acad_implicit)
-        append_acad_step(cloth, index, step, parity, calls);
-    else
+    else if (is_implicit(cloth))
         append_constraint_step(cloth, index, step, parity, calls);
+    else
+        append_acad_step(cloth, index, step, parity, calls);
 }
 
 /// The loops of linear systems and of the line search are within Newton's: where it has ended, they have,
@@ -57,7 +64,7 @@ std::uint32_t append_frame(std::span<const ClothModel> cloths, std::uint32_t ste
         if (!cloths[c].hierarchy.empty()) calls.push_back({Pass::solve_reset, c, parity, 0});
     for (std::uint32_t step = 0; step < steps; ++step, parity ^= 1)
         for (std::uint32_t c = 0; c < cloths.size(); ++c) {
-            if (c == grabbed) calls.push_back({Pass::grab, c, parity, step});
+            if (c == grabbed && !is_implicit(cloths[c])) calls.push_back({Pass::grab, c, parity, step});
             append_step(cloths[c], c, step, parity, calls);
         }
     append_measures(cloths, parity, steps - 1, calls);

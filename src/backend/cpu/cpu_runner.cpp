@@ -190,8 +190,9 @@ public:
             constants_[c] = StepConstants<float>(model, input.step_length);
             if (!input.attached.empty()) constants_[c].attached = input.attached[c];
             if (!input.goals.empty()) constants_[c].goals = input.goals[c];
-            constants_[c].set(input.grab);
-            solver_constants_[c] = make_solver_constants<float>(model, input.step_length);
+            const GrabInput grab = input.grab_of(c);
+            constants_[c].set(grab);
+            solver_constants_[c] = make_solver_constants<float>(model, input.step_length, grab);
         }
         // A host's threads are lent for a task at a time; Pliant's own stay together for the frame.
         together_ = own_jobs_ && thread_count() > 1 && is_worth_threads();

@@ -30,6 +30,9 @@ struct SolverConstants {
     bool is_acad = false, acad_has_memory = false;
     Number acad_above2{}, acad_below2{}, acad_held_above2{}, acad_held_below2{}, acad_near_above2{},
         acad_near_below2{};
+    int held = -1;  ///< offset of the node in a hand, see GrabInput
+    Vector3<Number> hand_target{};
+    Number hand_pull{}, hand_hold{};
     Number linear_tolerance{}, newton_tolerance{};
     static constexpr int most_relaxations = 8;
     Number relaxations[most_relaxations]{};

@@ -199,6 +199,16 @@ struct SolverKernels {
     real step_length() const { return spread(constants.dt); }
     real inverse_step() const { return spread(constants.inverse_dt); }
     vec3 gravity() const { return spread(constants.gravity); }
+    bool hand_is_near(int o) const { return constants.held >= o && constants.held < o + Lanes<T>::count; }
+    vec3 where_held(int o, vec3 held, vec3 otherwise) const
+    {
+        const int lane = constants.held - o;
+        return choose(Lanes<T>::first_lanes(lane), otherwise,
+                      choose(Lanes<T>::first_lanes(lane + 1), held, otherwise));
+    }
+    vec3 hand_target() const { return spread(constants.hand_target); }
+    real hand_pull() const { return spread(constants.hand_pull); }
+    real hand_hold() const { return spread(constants.hand_hold); }
     real linear_tolerance() const { return spread(constants.linear_tolerance); }
     real newton_tolerance() const { return spread(constants.newton_tolerance); }
 

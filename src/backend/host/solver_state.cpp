@@ -10,10 +10,11 @@
 namespace pliant {
 
 template <class T>
-SolverConstants<T> make_solver_constants(const ClothModel& model, double step_length)
+SolverConstants<T> make_solver_constants(const ClothModel& model, double step_length, const GrabInput& grab)
 {
     const auto number = [](double a) { return static_cast<T>(a); };
-    const StepConstants<T> step(model, step_length);
+    StepConstants<T> step(model, step_length);
+    step.set(grab);
     SolverConstants<T> c;
     c.dt = step.dt;
     c.inverse_dt = number(step_length > 0 ? 1 / step_length : 0);
@@ -28,6 +29,15 @@ SolverConstants<T> make_solver_constants(const ClothModel& model, double step_le
         c.curves[k] = {springs.curve_kind(),       number(springs.below),
                        number(springs.limit),      number(springs.beyond),
                        number(springs.compressed), number(step_length > 0 ? damping / step_length : 0)};
+    }
+    if (grab.hold > 0 && !model.hierarchy.empty()) {
+        const auto columns = static_cast<std::uint32_t>(model.hierarchy.levels.front().columns);
+        c.held =
+            Hierarchy::offset(model.hierarchy.levels.front(), static_cast<std::int32_t>(grab.node / columns),
+                              static_cast<std::int32_t>(grab.node % columns));
+        c.hand_target = step.grab_target;
+        c.hand_pull = step.grab_pull;
+        c.hand_hold = step.grab_hold;
     }
     c.exact_bend = model.bends_by_constraints();
     c.is_graded = model.graded;
@@ -251,7 +261,7 @@ template class SolverState<double>;
 template class SolverState<float>;
 template void set_first_numbers<double>(const ClothModel&, const Hierarchy&, double*);
 template void set_first_numbers<float>(const ClothModel&, const Hierarchy&, float*);
-template SolverConstants<double> make_solver_constants<double>(const ClothModel&, double);
-template SolverConstants<float> make_solver_constants<float>(const ClothModel&, double);
+template SolverConstants<double> make_solver_constants<double>(const ClothModel&, double, const GrabInput&);
+template SolverConstants<float> make_solver_constants<float>(const ClothModel&, double, const GrabInput&);
 
 }  // namespace pliant

@@ -11,9 +11,10 @@
 
 namespace pliant {
 
-/// Constants of a step in the numbers of a kernel.
+/// Constants of a step in the numbers of a kernel. `grab` is of this cloth, or nothing.
 template <class T>
-SolverConstants<T> make_solver_constants(const ClothModel& model, double step_length);
+SolverConstants<T> make_solver_constants(const ClothModel& model, double step_length,
+                                         const GrabInput& grab = {});
 
 /// What an arena of zeros holds before the first step: the numbers that come from the topology alone.
 template <class T>

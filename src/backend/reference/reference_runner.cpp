@@ -23,8 +23,9 @@ public:
             constants.emplace_back(cloth.model, input.step_length);
             if (!input.attached.empty()) constants.back().attached = input.attached[constants.size() - 1];
             if (!input.goals.empty()) constants.back().goals = input.goals[constants.size() - 1];
-            constants.back().set(input.grab);
-            solver_constants.push_back(make_solver_constants<double>(cloth.model, input.step_length));
+            const GrabInput grab = input.grab_of(constants.size() - 1);
+            constants.back().set(grab);
+            solver_constants.push_back(make_solver_constants<double>(cloth.model, input.step_length, grab));
         }
         std::vector<Laws<double>::Collider> colliders;
         std::uint32_t known_index = ~0u;

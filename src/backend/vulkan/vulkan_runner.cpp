@@ -202,7 +202,7 @@ public:
             first += write_goals(c, input, first, at.goals_stride);
             at.attached = static_cast<std::uint32_t>(first);
             cloths_[c].set_parameters(input.step_length, input.collider_count, input.colliders_rest, at,
-                                      input.grab);
+                                      input.grab_of(c));
             if (input.attached.empty()) continue;
             const auto& nodes = cloths_[c].model().attached;
             for (std::size_t k = 0; k < input.attached[c].size(); ++k, ++first) {

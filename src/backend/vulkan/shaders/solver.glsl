@@ -146,6 +146,9 @@ real decay() { return parameters.gravity_direction.w; }
 real step_length() { return solver.step_contact.x; }
 real inverse_step() { return solver.step_contact.y; }
 vec3 gravity() { return parameters.gravity_dt.xyz; }
+vec3 hand_target() { return parameters.grab_target.xyz; }
+real hand_pull() { return parameters.grab_target.w; }
+real hand_hold() { return parameters.rest_lengths_more.z; }
 real linear_tolerance() { return solver.tolerances.x; }
 real newton_tolerance() { return solver.tolerances.y; }
 
@@ -176,6 +179,8 @@ vec3 node_next_velocity(int o) { return velocity_out[node_at(o)].xyz; }
 void set_multiplier(int o, real a) { multiplier[node_at(o)] = a; }
 vec3 node_force(int o) { return parameters.has_air != 0u ? external_force[node_at(o)].xyz : vec3(0.0f); }
 real node_inverse_mass(int o) { return position_in[node_at(o)].w; }
+bool hand_is_near(int o) { return uint(node_at(o)) == parameters.rows_first.w && hand_hold() > 0.0f; }
+vec3 where_held(int o, vec3 held, vec3 otherwise) { return held; }  // there is but one lane, and it is near
 real node_mass(int o) { return velocity_in[node_at(o)].w; }
 void node_end(int o, vec3 x, vec3 v)
 {
