@@ -332,7 +332,7 @@ enum class Preconditioner {
 /// The solver newton_multigrid: each step minimises its incremental potential (Martin et al. 2011,
 /// Example-Based Elastic Materials, section 4) by Newton's method.
 struct NewtonMultigridOptions {
-    std::uint32_t newton_iterations = 7;  ///< 1 to 1000: at most, in a step; of ACAD, four times as many
+    std::uint32_t newton_iterations = 8;  ///< 1 to 1000: at most, in a step; of ACAD, four times as many
     /// 0 to 1: a step is solved when its residual has fallen to this fraction of the step's load (what
     /// inertia and gravity ask of it), both in the norm of the energy; 0 never stops early.
     double newton_tolerance = 0.1;

@@ -88,9 +88,9 @@ std::vector<double> energies(const NewtonMultigridOptions& options)
 
 TEST(Energy, WhatTheSolverLosesIsLessThanTwoPerCent)
 {
-    // Row "solver honesty": energy lost against a converged run, < 2 % of m g L. The default stops after 7
+    // Row "solver honesty": energy lost against a converged run, < 2 % of m g L. The default stops after 8
     // iterations of Newton's method, each of 6 V-cycles, for the sake of time, and misses this bar in the
-    // first second by as much as is measured here; 10 iterations of 8 V-cycles keep it
+    // first second by as much as is measured here, but keeps within 5 %; 12 iterations of 8 V-cycles keep it
     // (docs/verification.md). A run that is converged further differs from this one by 1e-4 of m g L.
     const auto converged = energies({.newton_iterations = 20,
                                      .newton_tolerance = 1e-3,
@@ -104,11 +104,11 @@ TEST(Energy, WhatTheSolverLosesIsLessThanTwoPerCent)
             most = std::max(most, std::abs(converged[k] - found[k]) / weight);
         return most;
     };
-    const double usual = most_lost({}), enough = most_lost({.newton_iterations = 10, .linear_iterations = 8});
+    const double usual = most_lost({}), enough = most_lost({.newton_iterations = 12, .linear_iterations = 8});
     test::measured("energy lost by the default, over m g L", usual);
-    test::measured("energy lost by 10 iterations of 8 V-cycles, over m g L", enough);
+    test::measured("energy lost by 12 iterations of 8 V-cycles, over m g L", enough);
     EXPECT_LT(enough, 0.02);
-    EXPECT_LT(usual, 0.06);
+    EXPECT_LT(usual, 0.05);
 }
 
 }  // namespace
