@@ -151,6 +151,9 @@ struct DeviceBuffers {
     std::uint64_t normal = 0;         ///< VkBuffer, vec4 per node: xyz of unit length
     std::uint64_t strain = 0;         ///< VkBuffer, float per node: the largest stretch of its springs
     std::uint32_t node_count = 0;
+    /// Of a mesh: where each of its vertices lies in the buffers; empty where that is their order. Valid as
+    /// long as the simulation.
+    std::span<const std::uint32_t> node_of_vertex;
 };
 
 /// All that moves, at a moment: what Simulation::set_state takes back.
@@ -274,6 +277,8 @@ public:
     /// Error(device_failure) when the device is lost. `position` alternates between two buffers, so ask again
     /// after every advance().
     std::optional<DeviceBuffers> device_buffers(std::size_t cloth = 0);
+    /// See DeviceBuffers: how the backend numbers the nodes of a cloth, which nothing else here shows.
+    std::span<const std::uint32_t> node_of_vertex(std::size_t cloth = 0) const;
     /// For Pliant's own renderer; null unless the backend is vulkan.
     DeviceState* device_state();
 
