@@ -42,8 +42,8 @@ SheetTile sheet_tile(const vk::PhysicalDeviceLimits& limits, std::uint32_t steps
         const std::uint32_t rows = std::min(region_rows - halo, largest_side);
         double computed = 0;
         for (std::uint32_t left = 0; left < steps; ++left)
-            computed += double{rows + 2.0 * reach * left} * (columns + 2.0 * reach * left);
-        const double share = computed / (double{1} * steps * rows * columns);
+            computed += (rows + 2.0 * reach * left) * (columns + 2.0 * reach * left);
+        const double share = computed / (1.0 * steps * rows * columns);
         if (best.rows > 0 && share >= least) continue;
         best = {rows, columns,
                 std::min({256u, limits.maxComputeWorkGroupInvocations, limits.maxComputeWorkGroupSize[0]})};
