@@ -57,6 +57,14 @@ bench() {
 }
 bench mss "$sheets"
 bench volume "$bodies"
+# The same sheets with several steps in a dispatch, and with arithmetic that is not the same everywhere.
+variants=(steps_2 steps_3 steps_4 fast)
+for variant in "${variants[@]}"; do
+    option=(--gpu-substeps "${variant#steps_}")
+    [ "$variant" = fast ] && option=(--fast-math)
+    "$pliant" bench mss --backend vulkan --device "$device" --sizes "$sheets" "${quick[@]}" "${option[@]}" \
+        --csv "$folder/mss_$variant.csv" || failed=1
+done
 if [ ${#quick[@]} -eq 0 ]; then
     "$pliant" bench constraint --backend vulkan --device "$device" --only "one system a step" --csv "$folder/constraint_vulkan.csv" ||
         failed=1
@@ -68,7 +76,7 @@ column='function column(name,   k) { for (k = 1; k <= NF; ++k) if (head[k] == na
         $1 == "row" { for (k = 1; k <= NF; ++k) head[k] = $k; next }'
 
 echo "Bars:"
-fields "$folder"/*_vulkan.csv | awk -F, "$column"'
+fields "$folder"/*_vulkan.csv "$folder"/mss_fast.csv | awk -F, "$column"'
     column("bar") != "" && column("backend") == "vulkan" {
         printf "  %-7s %s, %s, %s nodes: %s %s %s, asked for %s\n", column("verdict"), column("suite"), column("case"),
                column("nodes"), column("measured"), column("value"), column("unit"), column("bar")
@@ -76,7 +84,9 @@ fields "$folder"/*_vulkan.csv | awk -F, "$column"'
     }
     END { exit missed }' || failed=1
 echo "Bits, against the CPU:"
-fields "$folder"/{mss,volume}_{vulkan,cpu}.csv | awk -F, "$column"'
+# Of CSV files of both: bits REMARK FILE...
+bits() {
+    fields "${@:2}" | awk -F, -v remark="$1" "$column"'
     column("state_hash") != "" {
         key = column("suite") ", " column("case") ", " column("nodes") " nodes"
         hash[key, column("backend")] = column("state_hash")
@@ -85,9 +95,19 @@ fields "$folder"/{mss,volume}_{vulkan,cpu}.csv | awk -F, "$column"'
     END {
         for (key in keys) {
             same = hash[key, "vulkan"] == hash[key, "cpu"]
-            printf "  %-7s %s: %s, %s\n", same ? "equal" : "DIFFER", key, hash[key, "vulkan"], hash[key, "cpu"]
+            printf "  %-7s %s%s: %s, %s\n", same ? "equal" : "DIFFER", key, remark, hash[key, "vulkan"], hash[key, "cpu"]
             if (same) ++equal; else different = 1
         }
         exit different || !equal
     }' || failed=1
+}
+bits "" "$folder"/{mss,volume}_{vulkan,cpu}.csv
+for steps in 2 3 4; do bits ", $steps steps in a dispatch" "$folder/mss_steps_$steps.csv" "$folder/mss_cpu.csv"; done
+echo "Steps of sheets, ms:"
+for variant in vulkan "${variants[@]}"; do
+    fields "$folder/mss_$variant.csv" | awk -F, -v variant="$variant" "$column"'
+    column("backend") == "vulkan" && column("case") == "sheet" && !seen[column("nodes")]++ {
+        printf "  %-7s %9d nodes: %s\n", variant, column("nodes"), column("ms_per_step_median")
+    }'
+done
 exit $failed

@@ -2,7 +2,8 @@
 """What is compiled with wide instructions must stay where it is. Of the many equal copies of an inline function
 the linker keeps any one, so a function of the standard library, of Laws<float> or of a layout in kernels_avx512
 could end up in programs that run on machines without AVX-512. Looks at the symbols of these objects: every
-function that other files can see must be a template of the file's own Pack width.
+function that other files can see must be a template of the file's own Pack width. And what is compiled with fast
+arithmetic must be a template of fast packs.
 
     kernel_symbols_test.py OBJECT...    objects of the library, also as one list with ';' in between
 """
@@ -13,7 +14,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-WIDTHS = {"kernels_avx2.cpp.o": 8, "kernels_avx512.cpp.o": 16}
+WIDTHS = {"kernels_avx2.cpp.o": 8, "kernels_avx512.cpp.o": 16,
+          "kernels_avx2_fast.cpp.o": 8, "kernels_avx512_fast.cpp.o": 16}
 FUNCTION_TYPES = "TWi"  # of nm: global, weak, chosen at run time; data carry no instructions
 
 
@@ -27,9 +29,11 @@ def visible_functions(object_file):
     return functions, others
 
 
-def belongs_to(width, function):
-    widths = re.findall(r"\b(?:Pack|PackMask|LaneTypes)<(\d+)>", function)
-    return bool(widths) and all(int(found) == width for found in widths)
+def belongs_to(width, fast, function):
+    widths = re.findall(r"\b(?:Pack|PackMask|LaneTypes)<(\d+)[,>]", function)
+    fastness = re.findall(r"\bPack<\d+, (true|false)>", function)
+    return (bool(widths) and all(int(found) == width for found in widths)
+            and all((found == "true") == fast for found in fastness))
 
 
 def complaints_about(object_file, width):
@@ -38,7 +42,7 @@ def complaints_about(object_file, width):
     if table not in others:
         yield f"it does not define the table {table}"
     for function in functions:
-        if not belongs_to(width, function):
+        if not belongs_to(width, object_file.name.endswith("_fast.cpp.o"), function):
             yield f"other files may get its copy of {function}"
 
 

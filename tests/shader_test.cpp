@@ -29,13 +29,28 @@ void for_each_instruction(std::span<const std::uint32_t> code, Function&& f)
         f(code[at] & 0xffff, code.subspan(at, code[at] >> 16));
 }
 
+struct Shader {
+    std::string name;
+    std::span<const std::uint32_t> code;
+    bool of_solver = false;
+};
+
+std::vector<Shader> all_shaders()
+{
+    std::vector<Shader> shaders{{"sheet_steps", vulkan::sheet_steps_shader()}};
+    for (std::uint32_t p = 0; p < all_passes().size(); ++p) {
+        const auto pass = static_cast<Pass>(p);
+        shaders.push_back({all_passes()[p].name, vulkan::compute_shader(pass), is_solver_pass(pass)});
+    }
+    return shaders;
+}
+
 TEST(ComputeShaders, HaveNoInstructionThatMayBeContracted)
 {
-    for (std::uint32_t p = 0; p < all_passes().size(); ++p) {
+    for (const Shader& shader : all_shaders()) {
         // Laws are exact by their own text; the text around them, in the solver, is made so.
-        const auto raw = vulkan::compute_shader(static_cast<Pass>(p));
-        const auto code = is_solver_pass(static_cast<Pass>(p)) ? vulkan::with_exact_arithmetic(raw)
-                                                               : std::vector(raw.begin(), raw.end());
+        const auto code = shader.of_solver ? vulkan::with_exact_arithmetic(shader.code)
+                                           : std::vector(shader.code.begin(), shader.code.end());
         std::set<std::uint32_t> exact;
         for_each_instruction(code, [&](std::uint32_t op, auto words) {
             if (op == op_decorate && words[2] == no_contraction) exact.insert(words[1]);
@@ -45,22 +60,43 @@ TEST(ComputeShaders, HaveNoInstructionThatMayBeContracted)
             if (rounding_operations.count(op) == 0) return;
             ++operations;
             EXPECT_TRUE(exact.count(words[2]) > 0)
-                << all_passes()[p].name << ": operation " << op << " may be contracted";
-            EXPECT_TRUE(forbidden_operations.count(op) == 0) << all_passes()[p].name << ": operation " << op;
+                << shader.name << ": operation " << op << " may be contracted";
+            EXPECT_TRUE(forbidden_operations.count(op) == 0) << shader.name << ": operation " << op;
         });
-        if (!is_solver_pass(static_cast<Pass>(p))) {
-            EXPECT_GT(operations, 0) << all_passes()[p].name;
+        if (!shader.of_solver) {
+            EXPECT_GT(operations, 0) << shader.name;
         }
     }
 }
 
 TEST(ComputeShaders, UseNoBuiltInWhoseRoundingIsOpen)
 {
-    for (std::uint32_t p = 0; p < all_passes().size(); ++p)
-        for_each_instruction(vulkan::compute_shader(static_cast<Pass>(p)), [&](std::uint32_t op, auto words) {
+    for (const Shader& shader : all_shaders())
+        for_each_instruction(shader.code, [&](std::uint32_t op, auto words) {
             EXPECT_TRUE(op != op_extended_instruction || integer_extremes.count(words[4]) > 0)
-                << all_passes()[p].name << ": extended instruction " << (words.size() > 4 ? words[4] : 0);
+                << shader.name << ": extended instruction " << (words.size() > 4 ? words[4] : 0);
         });
+}
+
+TEST(ComputeShaders, OfFastMathUseTheDevicesInverseSquareRootAndMayBeContracted)
+{
+    constexpr std::uint32_t inverse_sqrt = 32;
+    int modules = 0, roots = 0;
+    const auto look_at = [&](std::span<const std::uint32_t> code) {
+        modules += code.empty() ? 0 : 1;
+        for_each_instruction(code, [&](std::uint32_t op, auto words) {
+            EXPECT_FALSE(op == op_decorate && words[2] == no_contraction);
+            roots += op == op_extended_instruction && words[4] == inverse_sqrt ? 1 : 0;
+        });
+    };
+    look_at(vulkan::fast_sheet_steps_shader());
+    for (std::uint32_t p = 0; p < all_passes().size(); ++p) {
+        const auto pass = static_cast<Pass>(p);
+        look_at(vulkan::fast_compute_shader(pass));
+        EXPECT_TRUE(!is_solver_pass(pass) || vulkan::fast_compute_shader(pass).empty());
+    }
+    EXPECT_EQ(modules, 10);
+    EXPECT_GE(roots, modules - 1);  // volume_cubic has none
 }
 
 TEST(Laws, AreGlslInDoubleToo)
@@ -76,15 +112,14 @@ TEST(ComputeShaders, AreStillValidAsTheyAreRun)
 {
     const auto folder = std::filesystem::temp_directory_path() / "pliant_shader_test";
     std::filesystem::create_directories(folder);
-    for (std::uint32_t p = 0; p < all_passes().size(); ++p) {
-        const auto exact = vulkan::with_exact_arithmetic(vulkan::compute_shader(static_cast<Pass>(p)));
+    for (const Shader& shader : all_shaders()) {
+        const auto exact = vulkan::with_exact_arithmetic(shader.code);
         const auto code = vulkan::with_float_controls(exact, {true, true});
         EXPECT_EQ(code.size(), exact.size() + 12);
-        const std::string file = (folder / (std::string(all_passes()[p].name) + ".spv")).string();
+        const std::string file = (folder / (shader.name + ".spv")).string();
         std::ofstream(file, std::ios::binary)
             .write(reinterpret_cast<const char*>(code.data()), static_cast<std::streamsize>(code.size() * 4));
-        EXPECT_EQ(std::system(("spirv-val --target-env vulkan1.2 " + file).c_str()), 0)
-            << all_passes()[p].name;
+        EXPECT_EQ(std::system(("spirv-val --target-env vulkan1.2 " + file).c_str()), 0) << shader.name;
     }
     std::filesystem::remove_all(folder);
 }

@@ -43,7 +43,7 @@ BenchCase sheet_case(const BenchOptions& options, std::uint64_t nodes, bool with
                 what.faster_than_serial = count >= 262'144 ? 20 : 0;
                 what.faster_than_serial_one_thread = count == 1'024 ? 6 : count >= 262'144 ? 10 : 0;
                 what.scaling = count == 1'048'576 ? 1.7 : 0;
-                what.copy_fraction = count == largest ? 0.5 : 0;
+                what.copy_fraction = count != largest ? 0 : options.simulation.fast_math ? 0.8 : 0.5;
                 measure_stepping(what, options, table);
             }};
 }

@@ -47,6 +47,12 @@ void add_machine(CLI::App& app, SimulationOptions& options)
            "Threads of the cpu backend; the result does not depend on it (default: one for each core)")
         ->check(CLI::Range(1, 1024))
         ->type_name("N");
+    app.add_option(
+           "--gpu-substeps", options.gpu_substeps,
+           "Vulkan: steps of a sheet in one dispatch where nothing is between them; the result does not "
+           "depend on it (default 1)")
+        ->check(CLI::Range(1, 4))
+        ->type_name("N");
     options.pipeline_folder = cache_folder();
     app.add_flag_callback(
         "--no-pipeline-cache", [&options] { options.pipeline_folder.clear(); },

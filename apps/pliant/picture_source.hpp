@@ -26,8 +26,11 @@ public:
     /// Whether frames stay on the device.
     static bool is_direct(Simulation& simulation)
     {
-        // The nodes of soft bodies lie in an order, and against an origin, of their own.
-        return simulation.device_state() && simulation.body_count() == 0;
+        // The nodes of soft bodies and meshes lie in an order of their own, and bodies against an origin,
+        // too.
+        for (std::size_t c = 0; c < simulation.scene().cloth_count(); ++c)
+            if (!simulation.node_of_vertex(c).empty()) return false;
+        return simulation.device_state() != nullptr;
     }
 
     std::span<const ClothFrame> frames() const { return frames_; }

@@ -44,8 +44,16 @@ struct SimulationOptions {
     unsigned threads = 0;  ///< cpu: 0 means one for each core; results do not depend on it
     std::string instruction_set =
         {};  ///< cpu: "sse2", "avx2", "avx512"; empty chooses the widest of this machine
+    /// cpu and vulkan: explicit steps with the machine's own inverse square root, and products fused with
+    /// sums. The bits then depend on the machine, its driver and the number of threads, and each is as good
+    /// as the others (docs/performance.md). The constraint solver's arithmetic stays as it is. Throws
+    /// Error(bad_usage) on a CPU without AVX2.
+    bool fast_math = false;
     JobSystem* job_system = nullptr;  ///< cpu: borrowed, must outlive the simulation
     bool validation = false;          ///< Vulkan: with the validation layer; its messages count in `report()`
+    /// Vulkan: steps of a sheet that are made in one dispatch, 1 to 4, where nothing is between them (no
+    /// wind, no moving pin, one cloth). The bits are the same; which number is fastest depends on the device.
+    unsigned gpu_substeps = 1;
     /// Vulkan: a folder in which compiled pipelines are kept between runs, made when it is missing; empty
     /// keeps none. What is damaged there, or of another driver, is ignored.
     std::filesystem::path pipeline_folder = {};
@@ -143,6 +151,9 @@ struct DeviceBuffers {
     std::uint64_t normal = 0;         ///< VkBuffer, vec4 per node: xyz of unit length
     std::uint64_t strain = 0;         ///< VkBuffer, float per node: the largest stretch of its springs
     std::uint32_t node_count = 0;
+    /// Of a mesh: where each of its vertices lies in the buffers; empty where that is their order. Valid as
+    /// long as the simulation.
+    std::span<const std::uint32_t> node_of_vertex;
 };
 
 /// All that moves, at a moment: what Simulation::set_state takes back.
@@ -266,6 +277,8 @@ public:
     /// Error(device_failure) when the device is lost. `position` alternates between two buffers, so ask again
     /// after every advance().
     std::optional<DeviceBuffers> device_buffers(std::size_t cloth = 0);
+    /// See DeviceBuffers: how the backend numbers the nodes of a cloth, which nothing else here shows.
+    std::span<const std::uint32_t> node_of_vertex(std::size_t cloth = 0) const;
     /// For Pliant's own renderer; null unless the backend is vulkan.
     DeviceState* device_state();
 

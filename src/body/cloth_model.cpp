@@ -143,6 +143,9 @@ ClothModel::ClothModel(const Cloth& cloth, const Scene& scene)
         }
     }
     if (uses_solver(method)) hierarchy = Hierarchy(*this);
+    // The solver's aggregates and sums depend on the order of the nodes, explicit steps do not.
+    if (const auto* mesh = std::get_if<SurfaceMesh>(&cloth.shape); mesh && !body && !uses_solver(method))
+        renumber(node_order(*mesh));
 }
 
 void ClothModel::build_sheet(const Cloth& cloth, const SheetOptions& options)

@@ -172,8 +172,9 @@ public:
     }
     Hierarchy hierarchy;  ///< of the constraint methods
     // Only when not node-centric:
-    std::vector<Spring> springs;   ///< sorted by (i, j)
-    Ragged<Neighbour> neighbours;  ///< per node, sorted by the other node; of a body see BodyModel::links
+    std::vector<Spring> springs;  ///< sorted by (i, j)
+    /// Per node, sorted by the other one as the mesh numbers them; of a body see BodyModel::links
+    Ragged<Neighbour> neighbours;
     /// Some have a scale, or bending, of their own. A sheet with such springs is stepped as a mesh.
     bool graded = false;
     /// At most what the largest eigenvalue of the solver's operator is against its own diagonal blocks: a
@@ -196,7 +197,7 @@ public:
                 neighbours.entries.data() + neighbours.start[node + 1]};
     }
     Vec3d origin;  ///< m: positions are against it; 0 but for a body, which is stepped near its own origin
-    /// The node of each vertex of the body's mesh; empty where they are the same.
+    /// The node of each vertex of the mesh; empty where they are the same.
     std::vector<std::uint32_t> node_of_vertex;
 
 private:
@@ -214,6 +215,8 @@ private:
     void list_mesh_springs();
     void grade_springs(const Cloth& cloth);
     void list_neighbours();
+    /// At place k of `order` is the vertex that becomes node k.
+    void renumber(const std::vector<std::uint32_t>& order);
 
     bool node_centric_ = false;
     std::uint64_t spring_count_ = 0, measured_spring_count_ = 0;

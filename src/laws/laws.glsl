@@ -1,5 +1,8 @@
 // The laws as GLSL: the same text that C++ compiles in laws.hpp. `precise` forbids contraction, so that the bits are
 // those of the CPU; a test checks every floating-point instruction of every compute shader for it.
+#ifdef FAST_MATH
+#define precise  // free to be contracted, see SimulationOptions::fast_math
+#endif
 #define LAW precise
 #define mask bool
 #ifdef REAL64
@@ -18,8 +21,13 @@ precise double inverse_sqrt_seed(double a)
 bool is_finite(double a) { return (unpackDouble2x32(a).y & 0x7ff00000u) != 0x7ff00000u; }
 #else
 #define real float
+#ifdef FAST_MATH
+const int inverse_sqrt_steps = 0;
+float inverse_sqrt_seed(float a) { return inversesqrt(max(a, 1.17549435e-38f)); }  // of 0, too, a finite number
+#else
 const int inverse_sqrt_steps = 3;
 precise float inverse_sqrt_seed(float a) { return uintBitsToFloat(0x5f375a86u - (floatBitsToUint(a) >> 1)); }
+#endif
 bool is_finite(float a) { return (floatBitsToUint(a) & 0x7f800000u) != 0x7f800000u; }
 #endif
 bool both(bool a, bool b) { return a && b; }

@@ -706,9 +706,13 @@ std::vector<SpringListing> Simulation::springs(std::size_t cloth) const
     for (std::uint32_t k = 0; k < place.node_count; ++k) vertex_of[place.node(k) - place.first_node] = k;
     for (const Spring& spring : model.springs) {
         if (spring.i < place.first_node || spring.i >= place.first_node + place.node_count) continue;
-        add(vertex_of[spring.i - place.first_node], vertex_of[spring.j - place.first_node],
-            spring.spring_class, spring.rest_length);
+        const auto [i, j] =
+            std::minmax(vertex_of[spring.i - place.first_node], vertex_of[spring.j - place.first_node]);
+        add(i, j, spring.spring_class, spring.rest_length);
     }
+    std::sort(listing.begin(), listing.end(), [](const SpringListing& a, const SpringListing& b) {
+        return a.i != b.i ? a.i < b.i : a.j < b.j;
+    });
     return listing;
 }
 
@@ -729,8 +733,7 @@ std::span<const Vec3> Simulation::normals(std::size_t cloth)
 std::span<const float> Simulation::strains(std::size_t cloth) { return implementation_->strains(cloth); }
 std::span<const Triangle> Simulation::triangles(std::size_t cloth) const
 {
-    const Cloth& given = scene().cloth(cloth);
-    if (given.is_body()) return std::get<SurfaceMesh>(given.shape).triangles;
+    if (const auto* mesh = std::get_if<SurfaceMesh>(&scene().cloth(cloth).shape)) return mesh->triangles;
     return implementation_->models[implementation_->places.at(cloth).model].triangles();
 }
 
@@ -848,7 +851,13 @@ std::optional<DeviceBuffers> Simulation::device_buffers(std::size_t cloth)
                          handle(buffers.position),
                          handle(buffers.normal),
                          handle(buffers.strain),
-                         buffers.node_count};
+                         buffers.node_count,
+                         node_of_vertex(cloth)};
+}
+
+std::span<const std::uint32_t> Simulation::node_of_vertex(std::size_t cloth) const
+{
+    return implementation_->places.at(cloth).node_of_vertex;
 }
 
 DeviceState* Simulation::device_state() { return implementation_->device_state; }

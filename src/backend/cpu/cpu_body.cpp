@@ -6,6 +6,7 @@
 
 #include "backend/cpu/jobs.hpp"
 #include "backend/cpu/pointers.hpp"
+#include "backend/cpu/slices.hpp"
 
 namespace pliant::cpu {
 namespace {
@@ -38,22 +39,19 @@ CpuBody::SliceArrays CpuBody::sliced(const std::vector<BodyBlock>& blocks, const
     std::vector<std::vector<Entry>> rows(Slices::lanes);
     for (const BodyBlock& block : blocks)
         for (std::uint32_t first = 0; first < block_size; first += Slices::lanes) {
-            std::size_t longest = 0;
-            for (std::uint32_t lane = 0; lane < Slices::lanes; ++lane) {
+            for (std::uint32_t lane = 0; lane < Slices::lanes; ++lane)
                 rows[lane] =
                     first + lane < block.count ? row(block.first + first + lane) : std::vector<Entry>{};
-                longest = std::max(longest, rows[lane].size());
-            }
-            for (std::size_t k = 0; k < longest; ++k)
-                for (const std::vector<Entry>& of : rows) {
+            append_slice(
+                slices.start, [&](std::size_t lane) { return rows[lane].size(); },
+                [&](std::size_t lane, std::size_t k, bool exists) {
                     // Beyond the end of a row its last entry again, without a spring: it adds nothing.
-                    const Entry entry =
-                        k < of.size() ? of[k] : Entry{of.empty() ? block.first : of.back().node, -1};
+                    const std::vector<Entry>& of = rows[lane];
+                    const Entry entry = exists ? of[k] : Entry{of.empty() ? block.first : of.back().node, -1};
                     slices.place.push_back(
                         static_cast<std::uint32_t>(layout.offset(entry.node) * state_size));
                     if (springs) slices.rest_length.push_back(entry.rest_length);
-                }
-            slices.start.push_back(static_cast<std::uint32_t>(slices.place.size() / Slices::lanes));
+                });
         }
     return slices;
 }

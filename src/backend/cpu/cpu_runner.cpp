@@ -167,7 +167,7 @@ private:
 class CpuRunner final : public PassRunner {
 public:
     CpuRunner(std::span<const ClothModel> models, const SimulationOptions& options)
-        : kernels_(cpu::choose_kernels(options.instruction_set)),
+        : kernels_(cpu::choose_kernels(options.instruction_set, options.fast_math)),
           jobs_(options.job_system),
           threads_are_asked_for_(options.threads > 0)
     {

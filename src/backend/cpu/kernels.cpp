@@ -8,6 +8,40 @@
 namespace pliant::cpu {
 
 extern const Kernels kernels_baseline, kernels_avx2, kernels_avx512;
+extern const Kernels kernels_avx2_fast, kernels_avx512_fast;
+
+namespace {
+
+/// Those with the fast arithmetic of an instruction set; null where there are none.
+const Kernels* fast_kernels([[maybe_unused]] const Kernels& exact)
+{
+#if defined(__x86_64__)
+    const auto with_solver = [](Kernels kernels, const Kernels& of) {
+        kernels.solve = of.solve;
+        return kernels;
+    };
+    static const Kernels avx2 = with_solver(kernels_avx2_fast, kernels_avx2);
+    static const Kernels avx512 = with_solver(kernels_avx512_fast, kernels_avx512);
+    if (&exact == &kernels_avx2) return &avx2;
+    if (&exact == &kernels_avx512) return &avx512;
+#endif
+    return nullptr;
+}
+
+const Kernels& exact_kernels(const std::string& name)
+{
+    const auto available = available_kernels();
+    if (name.empty()) return *available.back();
+    std::string names;
+    for (const Kernels* kernels : available) {
+        if (kernels->name == name) return *kernels;
+        names += (names.empty() ? "" : ", ") + std::string(kernels->name);
+    }
+    throw Error(ErrorKind::bad_usage,
+                "the instruction set '" + name + "' is not available: this machine has " + names);
+}
+
+}  // namespace
 
 std::span<const Kernels* const> available_kernels()
 {
@@ -25,17 +59,14 @@ std::span<const Kernels* const> available_kernels()
     return available;
 }
 
-const Kernels& choose_kernels(const std::string& name)
+const Kernels& choose_kernels(const std::string& name, bool fast_math)
 {
-    const auto available = available_kernels();
-    if (name.empty()) return *available.back();
-    std::string names;
-    for (const Kernels* kernels : available) {
-        if (kernels->name == name) return *kernels;
-        names += (names.empty() ? "" : ", ") + std::string(kernels->name);
-    }
-    throw Error(ErrorKind::bad_usage,
-                "the instruction set '" + name + "' is not available: this machine has " + names);
+    const Kernels& exact = exact_kernels(name);
+    if (!fast_math) return exact;
+    if (const Kernels* fast = fast_kernels(exact)) return *fast;
+    throw Error(ErrorKind::bad_usage, "there is no fast math on the cpu backend with the instruction set " +
+                                          std::string(exact.name) +
+                                          ": it needs avx2 or avx512; leave it out");
 }
 
 }  // namespace pliant::cpu

@@ -179,6 +179,8 @@ struct Kernels {
 /// Those this build has and this machine can run, narrowest first; never empty.
 std::span<const Kernels* const> available_kernels();
 /// By name, or the widest for an empty name; throws Error(bad_usage) that lists the names of this machine.
-const Kernels& choose_kernels(const std::string& name);
+/// With `fast_math` those of the same instruction set whose results are not the same everywhere; throws where
+/// there are none (sse2, and other architectures).
+const Kernels& choose_kernels(const std::string& name, bool fast_math = false);
 
 }  // namespace pliant::cpu

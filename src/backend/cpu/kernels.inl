@@ -5,7 +5,9 @@
 #include "backend/cpu/kernels.hpp"
 #include "backend/cpu/pack.hpp"
 #include "backend/cpu/records.hpp"
+#if !PLIANT_FAST_MATH
 #include "backend/host/solver_kernels.hpp"
+#endif
 
 namespace pliant::cpu {
 namespace {
@@ -125,10 +127,14 @@ PLIANT_INLINE L::Motion stepped(const Arguments& a, const L::Motion& now, const 
 
 #include "backend/cpu/body_kernels.inl"
 
+#if PLIANT_FAST_MATH
+constexpr auto solve = nullptr;  // the solver's arithmetic is exact in any case
+#else
 void solve(const SolverContext<float>& context, const Call& call, int first, int end)
 {
     SolverKernels<Number>(context, call).run(call.pass, first, end);
 }
+#endif
 
 }  // namespace
 

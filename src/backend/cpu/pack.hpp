@@ -12,6 +12,12 @@
 #include "backend/host/lanes.hpp"
 #include "laws/laws.hpp"
 
+/// 1 in files whose arithmetic is fast and not the same everywhere (SimulationOptions::fast_math). Their
+/// packs are a type of their own, so that no function is shared with exact ones.
+#if !defined(PLIANT_FAST_MATH)
+#define PLIANT_FAST_MATH 0
+#endif
+
 #define PLIANT_INLINE inline __attribute__((always_inline))
 
 namespace pliant {
@@ -38,7 +44,7 @@ struct PackMask {
     typename LaneTypes<W>::Integers lanes;  // 0 or -1
 };
 
-template <int W>
+template <int W, bool fast = PLIANT_FAST_MATH>
 struct Pack {
     using Lanes = typename LaneTypes<W>::Floats;
     using UnalignedLanes = typename LaneTypes<W>::UnalignedFloats;
@@ -67,10 +73,24 @@ struct NumberTraits<Pack<W>> {
     using Number = Pack<W>;
     using Mask = PackMask<W>;
     using Bits = typename LaneTypes<W>::Bits;
+#if PLIANT_FAST_MATH
+    /// From the machine's own estimate, good to 12 bits, one step reaches rounding.
+    static constexpr int inverse_sqrt_steps = 1;
+#else
     static constexpr int inverse_sqrt_steps = NumberTraits<float>::inverse_sqrt_steps;
+#endif
 
     static Number inverse_sqrt_seed(Number a)
     {
+#if PLIANT_FAST_MATH
+        // Of 0, too, a finite number: that of the smallest normal one.
+        const Number b = a.lanes > 0x1p-126f ? a.lanes : Number(0x1p-126f).lanes;
+#if defined(__AVX512F__)
+        if constexpr (W == 16)
+            return (typename Number::Lanes)_mm512_maskz_rsqrt14_ps(0xffff, (__m512)b.lanes);
+#endif
+        if constexpr (W == 8) return (typename Number::Lanes)_mm256_rsqrt_ps((__m256)b.lanes);
+#endif
         const Bits seed = 0x5f375a86u - (reinterpret_cast<Bits>(a.lanes) >> 1);
         return reinterpret_cast<typename Number::Lanes>(seed);
     }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "backend/cpu/pointers.hpp"
+#include "backend/cpu/slices.hpp"
 
 namespace pliant::cpu {
 
@@ -40,22 +41,22 @@ SpringList::SpringList(PlainCloth<float>& cloth)
         for (std::size_t column = 0; column < layout.columns; column += Slices::lanes) {
             const std::size_t count = std::min(Slices::lanes, layout.columns - column);
             const std::size_t node = row * layout.columns + column;
-            std::size_t longest = 0;
-            for (std::size_t k = 0; k < count; ++k)
-                longest = std::max(longest, model.neighbours.row(node + k).size());
-            for (std::size_t r = 0; r < longest; ++r)
-                for (std::size_t k = 0; k < Slices::lanes; ++k) {
+            const auto row_of = [&](std::size_t lane) {
+                return lane < count ? model.neighbours.row(node + lane) : std::span<const Neighbour>();
+            };
+            append_slice(
+                start_, [&](std::size_t lane) { return row_of(lane).size(); },
+                [&](std::size_t lane, std::size_t k, bool exists) {
                     std::size_t entry = vector_size * size;
-                    if (k < count && r < model.neighbours.row(node + k).size()) {
-                        const Neighbour& neighbour = model.neighbours.row(node + k)[r];
-                        entry =
-                            vector_size * std::size_t{neighbour.spring} + (neighbour.node < node + k ? 1 : 0);
+                    if (exists) {
+                        const Neighbour& neighbour = row_of(lane)[k];
+                        entry = vector_size * std::size_t{neighbour.spring} +
+                                (neighbour.node < node + lane ? 1 : 0);
                     }
                     springs_.push_back(static_cast<std::uint32_t>(entry));
-                }
+                });
             runs_.push_back(
                 {static_cast<std::uint32_t>(layout.offset(row, column)), static_cast<std::uint32_t>(count)});
-            start_.push_back(static_cast<std::uint32_t>(springs_.size() / Slices::lanes));
         }
 }
 

@@ -16,6 +16,9 @@ constexpr std::uint32_t mesh_wind[] = {
 constexpr std::uint32_t sheet_step[] = {
 #include "shaders/sheet_step.comp.inc"
 };
+constexpr std::uint32_t sheet_steps[] = {
+#include "shaders/sheet_steps.comp.inc"
+};
 constexpr std::uint32_t attach[] = {
 #include "shaders/attach.comp.inc"
 };
@@ -279,6 +282,40 @@ constexpr std::uint32_t paper_export[] = {
 #include "shaders/paper_export.comp.inc"
 };
 
+// The same for SimulationOptions::fast_math: those of PLIANT_FAST_SHADERS (cmake/PliantShaders.cmake).
+namespace fast {
+constexpr std::uint32_t sheet_steps[] = {
+#include "shaders/fast/sheet_steps.comp.inc"
+};
+constexpr std::uint32_t sheet_step[] = {
+#include "shaders/fast/sheet_step.comp.inc"
+};
+constexpr std::uint32_t spring_force[] = {
+#include "shaders/fast/spring_force.comp.inc"
+};
+constexpr std::uint32_t list_step[] = {
+#include "shaders/fast/list_step.comp.inc"
+};
+constexpr std::uint32_t stage_step[] = {
+#include "shaders/fast/stage_step.comp.inc"
+};
+constexpr std::uint32_t ring_step[] = {
+#include "shaders/fast/ring_step.comp.inc"
+};
+constexpr std::uint32_t volume_gather[] = {
+#include "shaders/fast/volume_gather.comp.inc"
+};
+constexpr std::uint32_t volume_step[] = {
+#include "shaders/fast/volume_step.comp.inc"
+};
+constexpr std::uint32_t volume_cubic[] = {
+#include "shaders/fast/volume_cubic.comp.inc"
+};
+constexpr std::uint32_t volume_correct[] = {
+#include "shaders/fast/volume_correct.comp.inc"
+};
+}  // namespace fast
+
 constexpr std::span<const std::uint32_t> codes[] = {
 #define PASS(name, ...) name,
 #include "solve/passes.def"
@@ -288,6 +325,24 @@ constexpr std::span<const std::uint32_t> codes[] = {
 }  // namespace
 
 std::span<const std::uint32_t> compute_shader(Pass pass) { return codes[static_cast<std::size_t>(pass)]; }
+std::span<const std::uint32_t> sheet_steps_shader() { return sheet_steps; }
+
+std::span<const std::uint32_t> fast_compute_shader(Pass pass)
+{
+    switch (pass) {
+        case Pass::sheet_step: return fast::sheet_step;
+        case Pass::spring_force: return fast::spring_force;
+        case Pass::list_step: return fast::list_step;
+        case Pass::stage_step: return fast::stage_step;
+        case Pass::ring_step: return fast::ring_step;
+        case Pass::volume_gather: return fast::volume_gather;
+        case Pass::volume_step: return fast::volume_step;
+        case Pass::volume_cubic: return fast::volume_cubic;
+        case Pass::volume_correct: return fast::volume_correct;
+        default: return {};
+    }
+}
+std::span<const std::uint32_t> fast_sheet_steps_shader() { return fast::sheet_steps; }
 
 std::vector<std::uint32_t> with_exact_arithmetic(std::span<const std::uint32_t> code)
 {

@@ -10,6 +10,13 @@
 namespace pliant::vulkan {
 
 std::span<const std::uint32_t> compute_shader(Pass pass);
+/// Several calls of Pass::sheet_step in one dispatch.
+std::span<const std::uint32_t> sheet_steps_shader();
+
+/// Both with the device's own inverse square root and nothing decorated NoContraction
+/// (SimulationOptions::fast_math); empty of a pass that has no such module.
+std::span<const std::uint32_t> fast_compute_shader(Pass pass);
+std::span<const std::uint32_t> fast_sheet_steps_shader();
 
 /// The same module with every sum and product decorated NoContraction. Laws have it from their own text
 /// (`precise`); this gives it to what is written around them.

@@ -6,8 +6,9 @@
 #include <set>
 
 #include "backend/vulkan/cloth_buffers.hpp"
+#include "backend/vulkan/pass_pipelines.hpp"
 #include "backend/vulkan/segments.hpp"
-#include "backend/vulkan/shader_code.hpp"
+#include "backend/vulkan/sheet_tile.hpp"
 #include "solve/frame.hpp"
 #include "solve/mass_spring.hpp"
 
@@ -36,15 +37,6 @@ ColliderRow pack_collider(const PlacedCollider& placed)
             row(c.spin),
             {}};
 }
-
-/// As shaders/cloth.glsl.
-struct Push {
-    std::uint32_t index = 0, source_first = 0, source_count = 0, target_first = 0;
-    std::uint32_t level = 0, detail = 0, guard = 0, slot_first = 0, slot_count = 0;
-};
-
-/// All cloths of a scene do, or none: by the scene's method.
-bool needs_solver(const ClothModel& model) { return !model.hierarchy.empty(); }
 
 /// A segment of a program as commands, with a timestamp before, between and after its stretches of calls of
 /// one pass.
@@ -100,59 +92,6 @@ private:
     std::set<Key> written_, read_;
 };
 
-/// The pipelines of passes; compiling them takes its time, so that all simulations of a device share them.
-class PassPipelines {
-public:
-    explicit PassPipelines(const Device& device) : sets(make_cloth_layout(device))
-    {
-        const vk::PushConstantRange push(vk::ShaderStageFlagBits::eCompute, 0, sizeof(Push));
-        const vk::DescriptorSetLayout of_sets = *sets;
-        layout = {device.handle(), vk::PipelineLayoutCreateInfo({}, of_sets, push)};
-        for (std::size_t p = 0; p < all_passes().size(); ++p) pipelines_.emplace_back(nullptr);
-    }
-
-    /// Those of a device.
-    static std::shared_ptr<PassPipelines> of(const Device& device)
-    {
-        std::shared_ptr<void>& kept = device.kept("pass pipelines");
-        if (!kept) kept = std::make_shared<PassPipelines>(device);
-        return std::static_pointer_cast<PassPipelines>(kept);
-    }
-
-    /// Makes those that some cloths need and that are not there yet.
-    void make(const Device& device, std::span<const ClothModel> models)
-    {
-        const bool solved = std::any_of(models.begin(), models.end(), needs_solver);
-        const bool bodies = std::any_of(models.begin(), models.end(),
-                                        [](const ClothModel& model) { return model.is_body(); });
-        const auto properties =
-            device.physical()
-                .getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceFloatControlsProperties>();
-        const auto& controls = properties.get<vk::PhysicalDeviceFloatControlsProperties>();
-        const FloatControls modes{controls.shaderDenormFlushToZeroFloat32 == VK_TRUE,
-                                  controls.shaderRoundingModeRTEFloat32 == VK_TRUE};
-        for (std::uint32_t p = 0; p < pipelines_.size(); ++p) {
-            const auto pass = static_cast<Pass>(p);
-            if (*pipelines_[p] || (is_solver_pass(pass) && !solved) || (is_body_pass(pass) && !bodies))
-                continue;
-            const auto module =
-                device.make_shader(with_float_controls(with_exact_arithmetic(compute_shader(pass)), modes));
-            const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module,
-                                                          "main");
-            pipelines_[p] = {device.handle(), device.pipelines().cache(),
-                             vk::ComputePipelineCreateInfo({}, stage, *layout)};
-        }
-        device.pipelines().keep();
-    }
-    vk::Pipeline operator[](Pass pass) const { return *pipelines_[static_cast<std::size_t>(pass)]; }
-
-    vk::raii::DescriptorSetLayout sets;
-    vk::raii::PipelineLayout layout{nullptr};
-
-private:
-    std::vector<vk::raii::Pipeline> pipelines_;  // by Pass
-};
-
 std::shared_ptr<Device> device_for(const SimulationOptions& options)
 {
     if (options.shared_device) return options.shared_device;
@@ -164,9 +103,14 @@ std::shared_ptr<Device> device_for(const SimulationOptions& options)
 class Runner final : public VulkanRunner {
 public:
     Runner(std::span<const ClothModel> models, const SimulationOptions& options)
-        : device_(device_for(options)), pipelines_(PassPipelines::of(*device_))
+        : device_(device_for(options)),
+          pipelines_(PassPipelines::of(*device_, options.fast_math)),
+          fast_math_(options.fast_math)
     {
         pipelines_->make(*device_, models);
+        if (std::any_of(models.begin(), models.end(),
+                        [](const ClothModel& model) { return model.node_centric(); }))
+            steps_at_once_ = pipelines_->make_sheet_steps(*device_, options.gpu_substeps);
         for (const ClothModel& model : models) {
             const auto known = std::find(origins_.begin(), origins_.end(), model.origin);
             origin_of_.push_back(static_cast<std::size_t>(known - origins_.begin()));
@@ -274,7 +218,10 @@ public:
     }
     MeasureTotals measures(std::uint32_t cloth) override { return cloths_[cloth].totals(); }
     const PassClock& clock() const override { return clock_; }
-    std::string device_name() const override { return device_->info().name; }
+    std::string device_name() const override
+    {
+        return device_->info().name + (fast_math_ ? ", fast math" : "");
+    }
     unsigned thread_count() const override { return 0; }
     std::uint64_t validation_messages() const override { return device_->validation_messages(); }
 
@@ -331,13 +278,18 @@ private:
         return goals.size();
     }
 
-    Groups groups_of(const Call& call) const
+    Groups groups_of(const Dispatch& dispatch) const
     {
+        const Call& call = dispatch.call;
         const ClothBuffers& cloth = cloths_[call.cloth];
         const ClothModel& model = cloth.model();
         if (is_solver_pass(call.pass)) return cloth.solver().groups_of(call);
         if (is_body_pass(call.pass)) return {cloth.body().groups_of(call)};
         const auto groups = [](std::uint64_t n, std::uint64_t size) { return (n + size - 1) / size; };
+        if (dispatch.steps > 1) {
+            const SheetTile& tile = pipelines_->tile(dispatch.steps);
+            return {groups(model.sheet->columns, tile.columns), groups(model.sheet->rows, tile.rows)};
+        }
         switch (call.pass) {
             case Pass::sheet_wind:
             case Pass::sheet_step:
@@ -363,7 +315,7 @@ private:
         append_frame(models, 1, 0, calls);
         for (std::uint32_t c = 0; c < models.size(); ++c) append_drawing(models[c], c, 0, calls);
         for (const Call& call : calls) {
-            const Groups groups = groups_of(call);
+            const Groups groups = groups_of({call});
             if (groups.x > most[0] || groups.y > most[1])
                 throw Error(ErrorKind::device_failure,
                             "a cloth of " + std::to_string(models[call.cloth].node_count()) +
@@ -418,16 +370,16 @@ private:
     {
         Recording recording;
         recording.segment = segment;
-        const std::span<const Call> calls =
-            std::span(program.calls).subspan(segment.first, segment.end - segment.first);
-        if (!calls.empty()) {
-            recording.cloth = calls.front().cloth;
-            recording.guard = calls.front().guard;
+        const std::vector<Dispatch> dispatches = dispatches_of(
+            std::span(program.calls).subspan(segment.first, segment.end - segment.first), steps_at_once_);
+        if (!dispatches.empty()) {
+            recording.cloth = dispatches.front().call.cloth;
+            recording.guard = dispatches.front().call.guard;
         }
-        for (const Call& call : calls) {
-            if (recording.stretches.empty() || recording.stretches.back().pass != call.pass)
-                recording.stretches.push_back({call.pass, 0});
-            ++recording.stretches.back().calls;
+        for (const Dispatch& d : dispatches) {
+            if (recording.stretches.empty() || recording.stretches.back().pass != d.call.pass)
+                recording.stretches.push_back({d.call.pass, 0});
+            recording.stretches.back().calls += d.steps;
         }
         const auto query_count = static_cast<std::uint32_t>(recording.stretches.size() + 1);
         if (device_->timestamp_period() > 0 && !recording.stretches.empty())
@@ -449,14 +401,14 @@ private:
         std::uint32_t query = 0;
         if (timed)
             commands.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *recording.queries, query++);
-        for (std::size_t c = 0; c < calls.size(); ++c) {
-            const Call& call = calls[c];
-            const bool last = c + 1 == calls.size() || calls[c + 1].pass != call.pass;
+        for (std::size_t d = 0; d < dispatches.size(); ++d) {
+            const Call& call = dispatches[d].call;
+            const bool last = d + 1 == dispatches.size() || dispatches[d + 1].call.pass != call.pass;
             if (plan.needed_before(call))
                 barrier(commands, vk::PipelineStageFlagBits::eComputeShader, vk::AccessFlagBits::eShaderWrite,
                         vk::PipelineStageFlagBits::eComputeShader,
                         vk::AccessFlagBits::eShaderRead | vk::AccessFlagBits::eShaderWrite);
-            dispatch(commands, call);
+            record(commands, dispatches[d]);
             if (timed && last)
                 commands.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *recording.queries,
                                         query++);
@@ -478,8 +430,9 @@ private:
         return recording;
     }
 
-    void dispatch(const vk::raii::CommandBuffer& commands, const Call& call) const
+    void record(const vk::raii::CommandBuffer& commands, const Dispatch& dispatch) const
     {
+        const Call& call = dispatch.call;
         const ClothBuffers& cloth = cloths_[call.cloth];
         Push push{call.index};
         if (call.pass == Pass::measure_merge) {
@@ -494,9 +447,9 @@ private:
         const SumSlots slots = sum_slots_of(call.pass);
         push.slot_first = slots.first;
         push.slot_count = slots.count;
-        const Groups groups = groups_of(call);
+        const Groups groups = groups_of(dispatch);
         if (groups.x == 0) return;  // a mesh without springs
-        commands.bindPipeline(vk::PipelineBindPoint::eCompute, (*pipelines_)[call.pass]);
+        commands.bindPipeline(vk::PipelineBindPoint::eCompute, pipelines_->of(dispatch));
         commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *pipelines_->layout, 0,
                                     cloth.set(call.parity), {});
         commands.pushConstants<Push>(*pipelines_->layout, vk::ShaderStageFlagBits::eCompute, 0, push);
@@ -529,6 +482,8 @@ private:
     std::vector<std::uint64_t> ticks_;
     PassClock clock_;
     std::uint32_t parity_ = 0;
+    bool fast_math_ = false;
+    std::uint32_t steps_at_once_ = 1;  ///< of a sheet, in one dispatch
 };
 
 }  // namespace
@@ -536,6 +491,10 @@ private:
 std::unique_ptr<VulkanRunner> make_vulkan_runner(std::span<const ClothModel> cloths,
                                                  const SimulationOptions& options)
 {
+    if (options.gpu_substeps < 1 || options.gpu_substeps > most_sheet_steps)
+        throw Error(ErrorKind::bad_usage, "gpu_substeps is " + std::to_string(options.gpu_substeps) +
+                                              ": a dispatch takes 1 to " + std::to_string(most_sheet_steps) +
+                                              " steps of a sheet");
     try {
         return std::make_unique<Runner>(cloths, options);
     } catch (const vk::SystemError& error) {

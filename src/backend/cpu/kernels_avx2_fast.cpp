@@ -1,0 +1,6 @@
+// 8 lanes with the machine's estimate of inverse square roots, and products fused with sums (CMakeLists.txt).
+#define PLIANT_FAST_MATH 1
+#define PLIANT_LANES 8
+#define PLIANT_KERNELS kernels_avx2_fast
+#define PLIANT_KERNELS_NAME "avx2, fast math"
+#include "backend/cpu/kernels.inl"
