@@ -40,7 +40,7 @@ def frame_at(seconds):
 def run_events(folder, backend):
     """One session that does a bit of everything."""
     name = f"session_{backend}"
-    node = 10 * 24 + 23  # the middle of the free edge
+    node = 19 * 24 + 23  # a corner of the free edge
     events = [
         {"at": 0.02, "key": "h"},     # the panel would take what the mouse does
         {"at": 0.1, "key": "space"},  # it was started paused
@@ -49,7 +49,7 @@ def run_events(folder, backend):
         {"at": 0.7, "method": "mass_spring"},
         {"at": 0.8, "method": "acad"},
         {"at": 0.9, "key": "space"},  # goes on
-        {"at": 0.95, "move_to_node": [0, node]},
+        {"at": 1.0, "move_to_node": [0, node]},  # it swings: a moment later it is elsewhere
         {"at": 1.0, "press": "right"},
         {"at": 1.05, "move": [125, 30]},
         {"at": 2.0, "release": "right"},
