@@ -47,6 +47,10 @@ void add_machine(CLI::App& app, SimulationOptions& options)
            "Threads of the cpu backend; the result does not depend on it (default: one for each core)")
         ->check(CLI::Range(1, 1024))
         ->type_name("N");
+    app.add_flag(
+        "--fast-math", options.fast_math,
+        "Explicit steps by the machine's own inverse square root and fused products: faster, and the "
+        "bits are no longer the same on every machine");
     app.add_option(
            "--gpu-substeps", options.gpu_substeps,
            "Vulkan: steps of a sheet in one dispatch where nothing is between them; the result does not "
