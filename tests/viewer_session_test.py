@@ -87,7 +87,7 @@ def run_events(folder, backend):
     ]
     log = session(folder, name, events, 600, "--backend", backend, "--paused", "--validation")
     if not log:
-        return
+        return []
     at = lambda seconds: log[frame_at(seconds)]
     start = log[0]["hash"]
     check(at(0.09)["hash"] == start, "paused at the start, the state changes")
@@ -136,6 +136,7 @@ def run_events(folder, backend):
     check(at(3.9)["scene"] == "chain", "the scene is not opened")
     check(len(log) == frame_at(4.0), "Escape does not end it")
     check(log[-1]["validation_messages"] == 0, "the validation layer complains")
+    return [line["hash"] for line in log]
 
 
 def run_grab(folder):
@@ -155,7 +156,8 @@ def main():
         return 77
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        run_events(folder, "cpu")
+        hashes = {backend: run_events(folder, backend) for backend in ("cpu", "vulkan")}
+        check(hashes["cpu"] == hashes["vulkan"], "the session's states differ between cpu and vulkan")
         run_grab(folder)
         usage = subprocess.run([TOOL, "view", "chain", "--headless"], capture_output=True, text=True)
         check(usage.returncode == 2 and "--frames" in usage.stderr, "--headless without --frames is not refused")

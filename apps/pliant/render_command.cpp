@@ -6,6 +6,7 @@
 
 #include "backend/vulkan/device_state.hpp"
 #include "commands.hpp"
+#include "label.hpp"
 #include "picture_source.hpp"
 #include "progress.hpp"
 #include "render/picture_recorder.hpp"
@@ -71,7 +72,7 @@ public:
           overlays_(overlays_of(options, scene)),
           renderer_(device, scene, topologies_of(simulation_))
     {
-        if (!overlays_.has_lines()) return;
+        if (!overlays_.needs_springs()) return;
         for (std::size_t c = 0; c < scene.cloth_count(); ++c)
             renderer_.set_springs(c, drawn_springs(simulation_, c));
     }
@@ -80,11 +81,12 @@ public:
     const Image& draw()
     {
         source_.gather(simulation_, overlays_);
+        const std::vector<ClothFrame> frames = frames_of(simulation_, source_);
         renderer_.draw({.camera = simulation_.scene().camera,
                         .time = simulation_.time(),
                         .overlays = overlays_,
                         .scale = &source_.scale(),
-                        .frames = source_.frames(),
+                        .frames = frames,
                         .extras = source_.extras()},
                        image_);
         return image_;
@@ -187,6 +189,8 @@ int render_command(const RenderOptions& options)
                 recorder.add(films.front()->draw(), frame);
             } else {
                 put_side_by_side(films[0]->draw(), films[1]->draw(), both);
+                write_label(both, 0, methods[0]);
+                write_label(both, both.width / 2, methods[1]);
                 recorder.add(both, frame);
             }
         }

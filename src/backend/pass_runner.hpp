@@ -89,11 +89,15 @@ public:
     /// The root of the tree of measures after a program that computed it.
     virtual MeasureTotals measures(std::uint32_t cloth) = 0;
 
-    /// 6 V in m3 of the bodies of a cloth, after a program that measured it.
-    virtual std::vector<double> volumes(std::uint32_t cloth) = 0;
+    /// 6 V in m3 of the bodies of a cloth, after a program that measured it. What is given keeps its memory,
+    /// here and below.
+    virtual void volumes(std::uint32_t cloth, std::vector<double>& values) = 0;
 
     /// The scalars of a cloth's constraint solver, by their numbers in kernels/planes.kernel.glsl.
-    virtual std::vector<double> solver_scalars(std::uint32_t cloth) = 0;
+    virtual void solver_scalars(std::uint32_t cloth, std::vector<double>& values) = 0;
+    /// Numbers of the arena of a cloth's constraint solver, see Hierarchy.
+    virtual void solver_numbers(std::uint32_t cloth, std::size_t first, std::size_t count,
+                                std::vector<float>& values) = 0;
 
     virtual const PassClock& clock() const = 0;
     virtual std::string device_name() const = 0;

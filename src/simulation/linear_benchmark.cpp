@@ -49,14 +49,15 @@ LinearBenchmark::Solution LinearBenchmark::solve(double goal, std::uint32_t most
     Program iterations{2 + std::uint64_t{between}, {}, 0};  // one program for each `between`
     append_linear_iterations(models_.front(), 0, 0, between, iterations.calls);
     runner_->run(system_, input_);
-    static_cast<void>(runner_->solver_scalars(0));  // waits for the device
+    std::vector<double> scalars;
+    runner_->solver_scalars(0, scalars);  // waits for the device
 
     Solution solution;
     const auto start = std::chrono::steady_clock::now();
     runner_->run(start_, input_);
     while (!solution.reached && solution.iterations < most) {
         runner_->run(iterations, input_);
-        const std::vector<double> scalars = runner_->solver_scalars(0);
+        runner_->solver_scalars(0, scalars);
         const auto made = static_cast<std::uint32_t>(scalars[scalar_iterations]);
         const double first = scalars[scalar_first_residual2];
         solution.residual = first > 0 ? std::sqrt(scalars[scalar_residual2] / first) : 0;

@@ -220,8 +220,8 @@ public:
         s.newton_last = s.iterations_last = 0;
         s.residual_last = 0;
         for (std::uint32_t c = 0; c < models.size(); ++c) {
-            const std::vector<double> of = runner->solver_scalars(c);
-            const auto number = [&](int scalar) { return of[static_cast<std::size_t>(scalar)]; };
+            runner->solver_scalars(c, solver_scalars);
+            const auto number = [&](int scalar) { return solver_scalars[static_cast<std::size_t>(scalar)]; };
             const auto whole = [&](int scalar) { return static_cast<std::uint32_t>(number(scalar)); };
             s.solves += whole(scalar_solves);
             newton_sum += number(scalar_newton_sum);
@@ -435,7 +435,8 @@ public:
         for (BodyMeasures& measures : report.bodies) {
             const ClothPlace& place = places[measures.cloth];
             const BodyPart& part = models[place.model].body->parts[place.part];
-            measures.volume = runner->volumes(place.model)[place.part] / 6;
+            runner->volumes(place.model, volumes);
+            measures.volume = volumes[place.part] / 6;
             measures.ratio = measures.volume / part.volume;
             measures.error = measures.ratio / value_at(part.options.target, report.simulated_seconds, 1) - 1;
             VolumeReport& all = report.volume;
@@ -478,12 +479,18 @@ public:
         const std::vector<float>& all = read_model(place.model, resource);
         const Vec3d origin = resource == Resource::position ? models[place.model].origin : Vec3d{};
         target.values.resize(place.node_count);
+        target.frame = state_number;
+        if (place.node_of_vertex.empty() && origin == Vec3d{}) {
+            static_assert(sizeof(Vec3) == 3 * sizeof(float));
+            std::memcpy(static_cast<void*>(target.values.data()), &all[3 * std::size_t{place.first_node}],
+                        target.values.size() * sizeof(Vec3));
+            return target.values;
+        }
         for (std::size_t i = 0; i < target.values.size(); ++i) {
             const std::size_t at = 3 * place.node(i);
             const Vec3 a{all[at], all[at + 1], all[at + 2]};
             target.values[i] = origin == Vec3d{} ? a : to_float(to_double(a) + origin);
         }
-        target.frame = state_number;
         return target.values;
     }
 
@@ -516,8 +523,11 @@ public:
         if (!uses_solver(stepped_method(scene))) {
             target.values.assign(places[cloth].node_count, 0.0f);
         } else {
-            Program program{next_program_id++, {}, parity};
-            append_multipliers(models[model], model, parity, program.calls);
+            Program& program = multiplier_programs[{model, parity}];
+            if (program.calls.empty()) {
+                program = {next_program_id++, {}, parity};
+                append_multipliers(models[model], model, parity, program.calls);
+            }
             runner->run(program, input(1 / scene.time.frame_rate));
             runner->read(model, Resource::multiplier, parity, target.values);
         }
@@ -593,14 +603,16 @@ public:
     std::vector<std::vector<Vec3>> attached;  ///< by cloth, see FrameInput
     /// By steps, parity and the model that a hand holds.
     std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, Program> programs;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, Program> drawing_programs;  ///< by model and parity
+    /// By model and parity.
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Program> drawing_programs, multiplier_programs;
     std::uint64_t next_program_id = 1;
     std::uint32_t parity = 0;
     std::uint64_t state_number = 1;  ///< counts states; 0 is none
     std::vector<ReadBack> read_backs;
     std::vector<std::map<Resource, ReadBack::Values<float>>> read_models;
-    std::vector<std::uint64_t> drawn;            ///< by model: the state of its normals and strains
-    std::vector<std::vector<VolumeGoal>> goals;  ///< by model, see FrameInput
+    std::vector<std::uint64_t> drawn;             ///< by model: the state of its normals and strains
+    std::vector<std::vector<VolumeGoal>> goals;   ///< by model, see FrameInput
+    std::vector<double> solver_scalars, volumes;  ///< kept, so that a frame allocates nothing
     double loss_sum = 0;
     Report report;
     double newton_sum = 0, iterations_sum = 0, active_sum = 0;  ///< of the solver, over the run

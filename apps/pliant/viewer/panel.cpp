@@ -136,37 +136,42 @@ void Panel::draw(Session& session, View& view)
 void Panel::draw_state(Session& session, View& view)
 {
     const Simulation& simulation = session.simulation();
-    const Report& report = simulation.report();
-    ImGui::Text("%s  %.2f s  %s", simulation.scene().name.c_str(), simulation.time(),
+    const Report& report = session.report();
+    ImGui::Text("%s  %.2f s  %s", simulation.scene().name.c_str(), session.time(),
                 session.paused ? "paused" : "");
     ImGui::Text("%llu nodes, %s", static_cast<unsigned long long>(simulation.node_count()),
                 name_of(simulation.backend()));
     ImGui::Text("%.2f x real time, %u steps of %.3g ms", session.real_time_factor(),
                 simulation.steps_per_frame(), 1000 * simulation.step_length());
     if (session.is_behind()) ImGui::TextColored(warning_colour, "slower than real time");
-    ImGui::Text("frame %.1f ms: steps %.2f, driver %.2f,", view.cost.whole, view.cost.simulation,
-                view.cost.driver);
-    ImGui::Text("viewer %.2f ms", view.cost.own);
+    const FrameCost cost = view.cost.median();
+    ImGui::Text("frame %.1f ms: steps %.2f, driver %.2f,", cost.whole, cost.simulation, cost.driver);
+    ImGui::Text("viewer %.2f ms", cost.own);
     if (view.recording) ImGui::TextColored(warning_colour, "recording");
     ImGui::PushTextWrapPos(320);
-    // Asked for only here: it makes a sentence.
-    if (simulation.step_length() > simulation.stable_step() &&
-        simulation.scene().method != Method::constraint)
-        ImGui::TextColored(warning_colour, "the step of %.3g ms exceeds the largest safe one of %.3g ms",
-                           1000 * simulation.step_length(), 1000 * simulation.stable_step());
-    if (!report.finite)
+    const auto offer_reset = [&](const char* name) {
+        if (ImGui::SmallButton(name)) view.wants_reset = true;
+    };
+    const Method method = simulation.scene().method;
+    if (simulation.step_length() > simulation.stable_step() && method != Method::constraint) {
+        // Of ACAD the solver keeps it stable all the same.
+        ImGui::TextColored(warning_colour, "the step of %.3g ms exceeds the largest safe one of %.3g ms%s",
+                           1000 * simulation.step_length(), 1000 * simulation.stable_step(),
+                           method == Method::acad ? ": springs are taken softer" : "");
+        offer_reset("Reset##unstable");
+    }
+    if (!report.finite) {
         ImGui::TextColored(warning_colour, "diverged in frame %llu: node %llu is no longer finite",
                            static_cast<unsigned long long>(report.bad_frame),
                            static_cast<unsigned long long>(report.bad_node));
+        offer_reset("Reset##diverged");
+    }
     if (report.device_lost) ImGui::TextColored(warning_colour, "stopped: %s", report.failure.c_str());
     if (!session.notice.empty()) ImGui::TextColored(warning_colour, "%s", session.notice.c_str());
     ImGui::PopTextWrapPos();
     if (ImGui::Button(session.paused ? "Run" : "Pause")) session.paused = !session.paused;
     ImGui::SameLine();
-    if (ImGui::Button("Step")) {
-        session.paused = true;
-        session.step_once();
-    }
+    if (ImGui::Button("Step")) session.step_once();
     ImGui::SameLine();
     if (ImGui::Button("Reset")) view.wants_reset = true;
     ImGui::SameLine();
@@ -253,7 +258,7 @@ void Panel::draw_plots(const Session& session)
     plot("mean stretch", h.mean_stretch, "%.3g %%");
     if (session.simulation().body_count() > 0) plot("volume", h.volume, "%.6f V0");
     plot("energy", h.energy, "%.4g J");
-    if (session.simulation().report().solver.used()) {
+    if (session.report().solver.used()) {
         plot("active", h.active, "%.0f constraints");
         plot("iterations", h.iterations, "%.0f");
         plot("residual", h.residual, "%.2e");

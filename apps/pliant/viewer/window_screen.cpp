@@ -76,7 +76,7 @@ public:
     }
     ~WindowScreen() override
     {
-        device_->handle().waitIdle();
+        device_->wait_idle();
         target_->clear();
     }
 
@@ -87,7 +87,7 @@ public:
     void poll(std::vector<Event>& events) override
     {
         // A minimised window sleeps until something happens.
-        if (target_->has_images())
+        if (target_->has_images() && !sleeping_)
             glfwPollEvents();
         else
             glfwWaitEventsTimeout(0.1);
@@ -98,7 +98,7 @@ public:
     bool read(Image& into) override
     {
         if (!copied_) return false;
-        device_->handle().waitIdle();
+        device_->wait_idle();
         target_->read(into);
         return true;
     }
@@ -112,6 +112,7 @@ public:
         }
         stale_ = true;
     }
+    void lose_surface() override { lost_ = true; }
     void set_title(const std::string& title) override { glfwSetWindowTitle(window_.get(), title.c_str()); }
 
 private:
@@ -130,7 +131,7 @@ private:
     {
         int width = 0, height = 0;
         glfwGetFramebufferSize(window_.get(), &width, &height);
-        device_->handle().waitIdle();
+        device_->wait_idle();
         target_->resize(*device_, {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)});
         stale_ = false;
     }
@@ -138,7 +139,7 @@ private:
     /// The surface is gone, as when a compositor restarts: the window has another one, of the same format.
     void replace_surface()
     {
-        device_->handle().waitIdle();
+        device_->wait_idle();
         target_->replace_surface([&] {
             surface_ = nullptr;
             VkSurfaceKHR surface = VK_NULL_HANDLE;
@@ -157,8 +158,14 @@ private:
             try {
                 int width = 0, height = 0;
                 glfwGetFramebufferSize(window_.get(), &width, &height);
-                const bool minimised = width == 0 || height == 0;
-                if (stale_ || minimised == target_->has_images()) rebuild();
+                const bool minimised =
+                    width == 0 || height == 0 || glfwGetWindowAttrib(window_.get(), GLFW_ICONIFIED) != 0;
+                if (minimised) {
+                    sleeping_ = true;
+                    return std::nullopt;
+                }
+                if (std::exchange(lost_, false)) throw vk::SurfaceLostKHRError("as an event said");
+                if (stale_ || std::exchange(sleeping_, false) || !target_->has_images()) rebuild();
                 if (!target_->has_images()) return std::nullopt;
                 if (const auto image = target_->acquire(free)) {
                     image_ = *image;
@@ -226,7 +233,7 @@ private:
     std::optional<vulkan::WindowTarget> target_;
     std::vector<Event> events_;
     std::uint32_t image_ = 0;
-    bool stale_ = false, copied_ = false;
+    bool stale_ = false, copied_ = false, lost_ = false, sleeping_ = false;
 };
 
 }  // namespace

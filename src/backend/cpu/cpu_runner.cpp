@@ -231,15 +231,21 @@ public:
         cloths_[cloth].plain.take_mass(node);
         cloths_[cloth].solver.take_mass(cloths_[cloth].plain.model, node);
     }
-    std::vector<double> volumes(std::uint32_t cloth) override
+    void volumes(std::uint32_t cloth, std::vector<double>& values) override
     {
-        const auto& values = cloths_[cloth].plain.body.volumes;
-        return {values.begin(), values.end()};
+        const auto& of = cloths_[cloth].plain.body.volumes;
+        values.assign(of.begin(), of.end());
     }
-    std::vector<double> solver_scalars(std::uint32_t cloth) override
+    void solver_scalars(std::uint32_t cloth, std::vector<double>& values) override
     {
-        const auto values = cloths_[cloth].solver.scalars();
-        return {values.begin(), values.end()};
+        const auto of = cloths_[cloth].solver.scalars();
+        values.assign(of.begin(), of.end());
+    }
+    void solver_numbers(std::uint32_t cloth, std::size_t first, std::size_t count,
+                        std::vector<float>& values) override
+    {
+        const auto of = cloths_[cloth].solver.arena().subspan(first, count);
+        values.assign(of.begin(), of.end());
     }
     MeasureTotals measures(std::uint32_t cloth) override { return cloths_[cloth].plain.totals(); }
     const PassClock& clock() const override { return clock_; }

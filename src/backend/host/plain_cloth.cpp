@@ -287,7 +287,7 @@ void PlainCloth<T>::stage_step(const Call& call, const StepConstants<T>& c,
             velocity_slope.set(o, v_sum);
         }
         Motion after = {L::stage_next(stage, start.position, x_sum, moved),
-                      L::settled_velocity(L::stage_next(stage, start.velocity, v_sum, change))};
+                        L::settled_velocity(L::stage_next(stage, start.velocity, v_sum, change))};
         if (is_last && !(w > T(0))) after.velocity = zero;
         if (is_last)
             for (const Collider& collider : colliders)
@@ -486,10 +486,18 @@ void PlainCloth<T>::read(Resource resource, std::uint32_t parity, std::vector<fl
     values.clear();
     const auto push = [&](auto... numbers) { (values.push_back(static_cast<float>(numbers)), ...); };
     const auto push_planes = [&](const Planes<T>& planes, std::size_t count, bool per_node) {
-        values.reserve(3 * count);
-        for (std::size_t i = 0; i < count; ++i) {
-            const Vector a = planes.get(per_node ? layout.offset(i) : i);
-            push(a.x, a.y, a.z);
+        // Row by row, for a viewer asks in every frame.
+        values.resize(3 * count);
+        float* out = values.data();
+        const std::size_t columns = per_node ? layout.columns : std::max<std::size_t>(count, 1);
+        for (std::size_t first = 0; first < count; first += columns) {
+            const std::size_t start = per_node ? layout.offset(first / columns, 0) : 0;
+            for (std::size_t k = 0; k < std::min(columns, count - first); ++k, out += 3) {
+                const Vector a = planes.get(start + k);
+                out[0] = static_cast<float>(a.x);
+                out[1] = static_cast<float>(a.y);
+                out[2] = static_cast<float>(a.z);
+            }
         }
     };
     const std::size_t nodes = model.node_count();

@@ -66,11 +66,21 @@ public:
         cloths_[cloth].take_mass(node);
         solvers_[cloth].take_mass(cloths_[cloth].model, node);
     }
-    std::vector<double> volumes(std::uint32_t cloth) override { return cloths_[cloth].body.volumes; }
-    std::vector<double> solver_scalars(std::uint32_t cloth) override
+    void volumes(std::uint32_t cloth, std::vector<double>& values) override
     {
-        const auto values = solvers_[cloth].scalars();
-        return {values.begin(), values.end()};
+        values = cloths_[cloth].body.volumes;
+    }
+    void solver_scalars(std::uint32_t cloth, std::vector<double>& values) override
+    {
+        const auto of = solvers_[cloth].scalars();
+        values.assign(of.begin(), of.end());
+    }
+    void solver_numbers(std::uint32_t cloth, std::size_t first, std::size_t count,
+                        std::vector<float>& values) override
+    {
+        values.clear();
+        for (const double number : solvers_[cloth].arena().subspan(first, count))
+            values.push_back(static_cast<float>(number));
     }
     MeasureTotals measures(std::uint32_t cloth) override { return cloths_[cloth].totals(); }
     const PassClock& clock() const override { return clock_; }

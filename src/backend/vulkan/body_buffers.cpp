@@ -101,12 +101,11 @@ void BodyBuffers::record_volume_copy(const vk::raii::CommandBuffer& commands) co
                         vk::BufferCopy(volumes_.first * sizeof(Float4), 0, volumes_.count * sizeof(Float4)));
 }
 
-std::vector<double> BodyBuffers::volumes() const
+void BodyBuffers::volumes(std::vector<double>& values) const
 {
-    std::vector<double> values(volumes_.count);
+    values.resize(volumes_.count);
     const auto* rows = static_cast<const Float4*>(read_volumes_.mapped);
     for (std::size_t k = 0; k < values.size(); ++k) values[k] = double{rows[k].x};
-    return values;
 }
 
 BodyBuffers::Rows BodyBuffers::rows_of(Resource resource) const

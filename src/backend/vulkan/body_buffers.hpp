@@ -18,7 +18,7 @@ public:
     std::uint32_t groups_of(const Call& call) const;
     /// Appends the copy of the measured volumes to where the host reads them.
     void record_volume_copy(const vk::raii::CommandBuffer& commands) const;
-    std::vector<double> volumes() const;  ///< 6 V, m3
+    void volumes(std::vector<double>& values) const;  ///< 6 V, m3
 
     const Buffer& topology() const { return topology_; }
     const Buffer& gradient() const { return gradient_; }

@@ -166,11 +166,11 @@ void SolverBuffers::record_scalar_copy(const vk::raii::CommandBuffer& commands) 
     commands.copyBuffer(*scalars_, *scalar_copy_, vk::BufferCopy(0, 0, solver_scalar_count * sizeof(float)));
 }
 
-std::vector<double> SolverBuffers::scalar_values() const
+void SolverBuffers::scalar_values(std::vector<double>& into) const
 {
     std::array<float, solver_scalar_count> values{};
     if (scalar_copy_.mapped) std::memcpy(values.data(), scalar_copy_.mapped, sizeof values);
-    return {values.begin(), values.end()};
+    into.assign(values.begin(), values.end());
 }
 
 }  // namespace pliant::vulkan

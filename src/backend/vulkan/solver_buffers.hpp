@@ -33,7 +33,7 @@ public:
 
     /// Appends the copy of the scalars to where the host reads them.
     void record_scalar_copy(const vk::raii::CommandBuffer& commands) const;
-    std::vector<double> scalar_values() const;
+    void scalar_values(std::vector<double>& into) const;
 
 private:
     Groups groups_on(std::int32_t rows, std::int32_t columns) const;
