@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """`pliant view` in a window of a virtual display: keys and mouse as an X server sends them, asserted by what the viewer
-writes of each frame, and a script with sizes and a minimised window. With the validation layer."""
+writes of each frame, and a script with sizes, a minimised window and a lost surface. With the validation layer."""
 import json
 import math
 import os
@@ -156,8 +156,9 @@ def touch(environment):
 
 def run_script(folder, environment):
     script, log, picture = folder / "window.json", folder / "window.jsonl", folder / "window.png"
-    events = [{"at": 0.1, "resize": [500, 300]}, {"at": 0.4, "resize": [320, 240]}, {"at": 0.5, "resize": [0, 0]},
-              {"at": 0.7, "resize": [640, 360]}, {"at": 0.8, "scene": "chain"}, {"at": 1.0, "screenshot": str(picture)}]
+    events = [{"at": 0.1, "resize": [500, 300]}, {"at": 0.3, "lose_surface": True}, {"at": 0.4, "resize": [320, 240]},
+              {"at": 0.5, "resize": [0, 0]}, {"at": 0.7, "resize": [640, 360]}, {"at": 0.75, "lose_surface": True},
+              {"at": 0.8, "scene": "chain"}, {"at": 1.0, "screenshot": str(picture)}]
     script.write_text(json.dumps({"events": events}))
     done = subprocess.run([TOOL, "view", SCENE, "--frames", "70", "--script", str(script), "--log", str(log), "--size",
                            "400x240", "--backend", "cpu", "--validation"],

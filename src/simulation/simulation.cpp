@@ -484,12 +484,18 @@ public:
         const std::vector<float>& all = read_model(place.model, resource);
         const Vec3d origin = resource == Resource::position ? models[place.model].origin : Vec3d{};
         target.values.resize(place.node_count);
+        target.frame = state_number;
+        if (place.node_of_vertex.empty() && origin == Vec3d{}) {
+            static_assert(sizeof(Vec3) == 3 * sizeof(float));
+            std::memcpy(static_cast<void*>(target.values.data()), &all[3 * std::size_t{place.first_node}],
+                        target.values.size() * sizeof(Vec3));
+            return target.values;
+        }
         for (std::size_t i = 0; i < target.values.size(); ++i) {
             const std::size_t at = 3 * place.node(i);
             const Vec3 a{all[at], all[at + 1], all[at + 2]};
             target.values[i] = origin == Vec3d{} ? a : to_float(to_double(a) + origin);
         }
-        target.frame = state_number;
         return target.values;
     }
 
@@ -522,8 +528,11 @@ public:
         if (!uses_solver(stepped_method(scene))) {
             target.values.assign(places[cloth].node_count, 0.0f);
         } else {
-            Program program{next_program_id++, {}, parity};
-            append_multipliers(models[model], model, parity, program.calls);
+            Program& program = multiplier_programs[{model, parity}];
+            if (program.calls.empty()) {
+                program = {next_program_id++, {}, parity};
+                append_multipliers(models[model], model, parity, program.calls);
+            }
             runner->run(program, input(1 / scene.time.frame_rate));
             runner->read(model, Resource::multiplier, parity, target.values);
         }
@@ -600,7 +609,8 @@ public:
     std::vector<std::vector<Vec3>> attached;  ///< by cloth, see FrameInput
     /// By steps, parity and the model that a hand holds.
     std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, Program> programs;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, Program> drawing_programs;  ///< by model and parity
+    /// By model and parity.
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Program> drawing_programs, multiplier_programs;
     std::uint64_t next_program_id = 1;
     std::uint32_t parity = 0;
     std::uint64_t state_number = 1;  ///< counts states; 0 is none
