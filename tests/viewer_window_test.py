@@ -5,24 +5,14 @@ import json
 import math
 import os
 import queue
-import shutil
 import subprocess
 import sys
-import tempfile
 import threading
 import time
-from pathlib import Path
 
-TOOL = sys.argv[1]
-ROOT = Path(__file__).resolve().parent.parent
-SCENE = str(ROOT / "tests/data/viewer_cloth.json")
+from viewer_checks import SCENE, TOOL, check, lines_of, run
+
 PATIENCE = 60  # s, for what takes a frame or two: machines may be busy
-failures = []
-
-
-def check(condition, what):
-    if not condition:
-        failures.append(what)
 
 
 class Display:
@@ -164,7 +154,7 @@ def run_script(folder, environment):
                            "400x240", "--backend", "cpu", "--validation"],
                           capture_output=True, text=True, env=environment, timeout=500)
     check(done.returncode == 0, f"exit code {done.returncode}: {done.stderr.strip()}")
-    lines = [json.loads(line) for line in log.read_text().splitlines()] if log.exists() else []
+    lines = lines_of(log)
     check(len(lines) == 70, f"{len(lines)} frames instead of 70")
     if lines:
         check(lines[0]["size"] == [400, 240], f"the window is {lines[0]['size']}")
@@ -174,24 +164,14 @@ def run_script(folder, environment):
     check(picture.exists() and picture.stat().st_size > 2000, "there is no screenshot")
 
 
-def main():
-    if not shutil.which("Xvfb") or not shutil.which("xdotool"):
-        print("Xvfb or xdotool is not installed: skipped")
-        return 77
-    if "vulkan" not in subprocess.run([TOOL, "info"], capture_output=True, text=True).stdout:
-        print("there is no Vulkan device: skipped")
-        return 77
-    with tempfile.TemporaryDirectory() as name, Display() as environment:
+def test(folder):
+    with Display() as environment:
         touch(environment)
-        run_script(Path(name), environment)
+        run_script(folder, environment)
         without = dict(environment, DISPLAY=":9999")
         done = subprocess.run([TOOL, "view", SCENE], capture_output=True, text=True, env=without, timeout=120)
         check(done.returncode == 4 and "--headless" in done.stderr, f"without a display: {done.returncode}, {done.stderr}")
-    for failure in failures:
-        print(failure)
-    print(f"{len(failures)} failed")
-    return 1 if failures else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run(test, "Xvfb", "xdotool"))

@@ -31,6 +31,8 @@ public:
         if (!file_ && !to_output_) return;
         Session& session = viewer.session();
         Simulation& simulation = session.simulation();
+        const bool idle = session.is_idle();
+        if (idle) static_cast<void>(session.hold());  // what is told is of one state
         const Camera camera = viewer.camera().camera();
         nlohmann::json line = {
             {"frame", frame},
@@ -52,7 +54,7 @@ public:
         for (std::size_t k = 0; k < overlay_count; ++k)
             if (viewer.view().overlays.has(static_cast<Overlay>(k)))
                 line["overlays"].push_back(overlay_names[k]);
-        if (session.is_idle()) add_state(line, session);
+        if (idle) add_state(line, session);
         if (file_)
             file_->stream() << line.dump() << '\n';
         else

@@ -90,7 +90,7 @@ void Session::start(Scene scene, const State* state)
     scene_ = std::move(scene);
     ++simulation_number_;
     changed_ = stepped_ = false;
-    waiting_ = 0;
+    if (!state) waiting_ = 0;
     times_before_.clear();
     pass_costs_.clear();
     if (held_ && state) simulation_->grab(held_->cloth, held_->node, hand_, hand_stiffness, hand_damping);
@@ -102,8 +102,8 @@ void Session::start(Scene scene, const State* state)
 
 void Session::when_idle(std::function<void()> edit)
 {
-    if (stepper_.is_idle()) return edit();
-    edits_.push_back(std::move(edit));
+    if (edits_.empty() && stepper_.is_idle()) return edit();
+    edits_.push_back(std::move(edit));  // behind those that wait: order counts
     stepper_.interrupt();
 }
 
@@ -179,7 +179,10 @@ void Session::advance(double seconds, double patience)
         measured_ += seconds;
     }
     if (stepper_.is_idle()) {
-        for (const auto& edit : edits_) edit();
+        for (std::size_t k = 0; k < edits_.size(); ++k) {  // there may be more of them by then
+            const auto edit = std::move(edits_[k]);
+            edit();
+        }
         edits_.clear();
         apply_changes();
         if (std::exchange(hand_moved_, false)) move_hand(hand_);

@@ -28,8 +28,10 @@ struct StepNumbers {
 };
 
 /// Whoever shows states calls it from one thread. Between `start` and the end of its steps the simulation
-/// belongs to the stepper's thread; when it is idle, to the caller. States come in a ring of five: the two
-/// that are shown, the last two, and one that is being filled, so that neither thread waits for the other.
+/// belongs to the stepper's thread; when it is idle, to the caller: `busy_`, which changes under `mutex_`,
+/// hands it over. States come in a ring of five: the two that are shown, the last two, and one that is being
+/// filled. Their places are named under `mutex_`, and what is in a place that is named to others does not
+/// change: so there is no lock around a step, and neither thread waits for the other.
 class Stepper {
 public:
     static constexpr unsigned most_steps = 16;
