@@ -19,34 +19,6 @@ double round_number_above(double a)
     return 10 * power;
 }
 
-/// Springs that a constraint holds: as long as it lets them be, with a constraint force at both ends.
-void find_held(Simulation& simulation, std::size_t cloth, std::vector<std::uint32_t>& held)
-{
-    const Scene& scene = simulation.scene();
-    const Springs& of = scene.cloth(cloth).springs;
-    const auto limit_of = [&](SpringKind kind) {
-        if (scene.method == Method::acad)
-            return scene.acad.target == AcadTarget::rest ? 0 : scene.acad.activate_at;
-        if (scene.method != Method::constraint) return -1.0;
-        const SpringParameters& springs = kind == SpringKind::structural ? of.structural
-                                          : kind == SpringKind::shear    ? of.shear
-                                                                         : of.bend;
-        const bool constraint = springs.role == SpringRole::constraint ||
-                                (springs.role == SpringRole::automatic && kind != SpringKind::bend);
-        return constraint ? springs.limit : -1.0;
-    };
-    held.clear();
-    const auto positions = simulation.positions(cloth);
-    const auto forces = simulation.multipliers(cloth);
-    for (const SpringListing& spring : simulation.springs(cloth)) {
-        const double limit = limit_of(spring.kind);
-        const Vec3d d = to_double(positions[spring.j]) - to_double(positions[spring.i]);
-        // A constraint under force gives by its compliance, and so is a little longer than its limit.
-        held.push_back(limit >= 0 && forces[spring.i] > 0 && forces[spring.j] > 0 &&
-                       std::sqrt(dot(d, d)) >= spring.rest_length * (1 + 0.98 * limit));
-    }
-}
-
 template <class T>
 void keep(std::span<const T> from, std::vector<T>& into)
 {
@@ -119,7 +91,7 @@ void PictureSource::gather_overlays(Simulation& simulation, OverlaySet overlays)
     values_.resize(count);
     if (overlays.has(Overlay::active))
         for (std::size_t c = 0; c < count; ++c) {
-            find_held(simulation, c, held_[c]);
+            keep(simulation.held_springs(c), held_[c]);
             extras_[c].held = held_[c];
         }
     if (overlays.has(Overlay::contacts)) gather_contacts(simulation);

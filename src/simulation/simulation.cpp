@@ -16,6 +16,7 @@
 #include "body/cloth_model.hpp"
 #include "kernels/planes.hpp"
 #include "simulation/hand.hpp"
+#include "simulation/held_springs.hpp"
 #include "solve/frame.hpp"
 #include "solve/mass_spring.hpp"
 #include "solve/newton_multigrid.hpp"
@@ -540,6 +541,20 @@ public:
         return target.values;
     }
 
+    std::span<const std::uint32_t> held_springs(std::size_t cloth)
+    {
+        ReadBack::Values<std::uint32_t>& target = read_backs.at(cloth).held;
+        if (target.frame == state_number) return target.values;
+        const ClothPlace& place = places[cloth];
+        if (models[place.model].is_body()) return {};  // they have no constraints
+        held.resize(places.size());
+        if (!held[cloth]) held[cloth].emplace(models[place.model], scene, scene.cloth(cloth));
+        const auto forces = multipliers(cloth);
+        held[cloth]->read(*runner, place.model, values(cloth, Resource::position), forces, target.values);
+        target.frame = state_number;
+        return target.values;
+    }
+
     /// Normals and strains are computed only when someone looks.
     void update_drawing(std::size_t cloth)
     {
@@ -583,6 +598,7 @@ public:
         };
         Values<Vec3> positions, velocities, normals;
         Values<float> strains, multipliers;
+        Values<std::uint32_t> held;
     };
 
     /// Where a cloth or body of the scene lies in the models.
@@ -616,8 +632,9 @@ public:
     std::uint64_t state_number = 1;  ///< counts states; 0 is none
     std::vector<ReadBack> read_backs;
     std::vector<std::map<Resource, ReadBack::Values<float>>> read_models;
-    std::vector<std::uint64_t> drawn;            ///< by model: the state of its normals and strains
-    std::vector<std::vector<VolumeGoal>> goals;  ///< by model, see FrameInput
+    std::vector<std::optional<HeldSprings>> held;  ///< by cloth, made when first asked for
+    std::vector<std::uint64_t> drawn;              ///< by model: the state of its normals and strains
+    std::vector<std::vector<VolumeGoal>> goals;    ///< by model, see FrameInput
     double loss_sum = 0;
     Report report;
     double newton_sum = 0, iterations_sum = 0, active_sum = 0;  ///< of the solver, over the run
@@ -746,6 +763,11 @@ std::span<const Triangle> Simulation::triangles(std::size_t cloth) const
 std::span<const float> Simulation::multipliers(std::size_t cloth)
 {
     return implementation_->multipliers(cloth);
+}
+
+std::span<const std::uint32_t> Simulation::held_springs(std::size_t cloth)
+{
+    return implementation_->held_springs(cloth);
 }
 
 std::uint64_t Simulation::state_hash()

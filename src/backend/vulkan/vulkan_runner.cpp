@@ -273,6 +273,13 @@ public:
     {
         return cloths_[cloth].solver().scalar(number);
     }
+    void solver_numbers(std::uint32_t cloth, std::size_t first, std::size_t count,
+                        std::vector<float>& values) override
+    {
+        values.resize(count);
+        device_->read(cloths_[cloth].solver().arena(), values.data(), count * sizeof(float),
+                      first * sizeof(float));
+    }
     MeasureTotals measures(std::uint32_t cloth) override { return cloths_[cloth].totals(); }
     const PassClock& clock() const override { return clock_; }
     std::string device_name() const override { return device_->info().name; }
