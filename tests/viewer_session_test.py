@@ -3,19 +3,11 @@
 the log tells it."""
 import json
 import math
+import shutil
 import subprocess
 import sys
-import tempfile
-from pathlib import Path
 
-TOOL = sys.argv[1]
-ROOT = Path(__file__).resolve().parent.parent
-failures = []
-
-
-def check(condition, what):
-    if not condition:
-        failures.append(what)
+from viewer_checks import ROOT, TOOL, check, lines_of, run
 
 
 def session(folder, name, events, frames, *options, scene="tests/data/viewer_cloth.json"):
@@ -26,7 +18,7 @@ def session(folder, name, events, frames, *options, scene="tests/data/viewer_clo
                "--script", str(script), "--log", str(log), "--size", "200x120", *options]
     done = subprocess.run(command, capture_output=True, text=True, cwd=folder)
     check(done.returncode == 0, f"{name}: exit code {done.returncode}: {done.stderr.strip()}")
-    return [json.loads(line) for line in log.read_text().splitlines()] if log.exists() else []
+    return lines_of(log)
 
 
 def distance(a, b):
@@ -148,22 +140,24 @@ def run_grab(folder):
               "without gravity and with damping it falls on")
 
 
-def main():
-    done = subprocess.run([TOOL, "info"], capture_output=True, text=True)
-    if "vulkan" not in done.stdout:
-        print("there is no Vulkan device: skipped")
-        return 77
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        run_events(folder, "cpu")
-        run_grab(folder)
-        usage = subprocess.run([TOOL, "view", "chain", "--headless"], capture_output=True, text=True)
-        check(usage.returncode == 2 and "--frames" in usage.stderr, "--headless without --frames is not refused")
-    for failure in failures:
-        print(failure)
-    print(f"{len(failures)} failed")
-    return 1 if failures else 0
+def run_files(folder):
+    """Keys that write files, into the current folder."""
+    events = [{"at": 0.1, "key": "s"}, {"at": 0.2, "key": "v"}, {"at": 0.5, "key": "v"}]
+    log = session(folder, "files", events, 36, "--backend", "cpu", scene="chain")
+    check((folder / "pliant_0001.png").exists(), "S writes no screenshot")
+    if shutil.which("ffmpeg"):
+        video = folder / "pliant_0002.mp4"
+        check(video.exists() and video.stat().st_size > 500, "V writes no video")
+        check(log and log[-1]["notice"] == "", f"V: {log[-1]['notice'] if log else ''}")
+
+
+def test(folder):
+    run_events(folder, "cpu")
+    run_grab(folder)
+    run_files(folder)
+    usage = subprocess.run([TOOL, "view", "chain", "--headless"], capture_output=True, text=True)
+    check(usage.returncode == 2 and "--frames" in usage.stderr, "--headless without --frames is not refused")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run(test))

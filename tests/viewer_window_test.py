@@ -1,28 +1,18 @@
 #!/usr/bin/env python3
 """`pliant view` in a window of a virtual display: keys and mouse as an X server sends them, asserted by what the viewer
-writes of each frame, and a script with sizes and a minimised window. With the validation layer."""
+writes of each frame, and a script with sizes, a minimised window and a lost surface. With the validation layer."""
 import json
 import math
 import os
 import queue
-import shutil
 import subprocess
 import sys
-import tempfile
 import threading
 import time
-from pathlib import Path
 
-TOOL = sys.argv[1]
-ROOT = Path(__file__).resolve().parent.parent
-SCENE = str(ROOT / "tests/data/viewer_cloth.json")
+from viewer_checks import SCENE, TOOL, check, lines_of, run
+
 PATIENCE = 60  # s, for what takes a frame or two: machines may be busy
-failures = []
-
-
-def check(condition, what):
-    if not condition:
-        failures.append(what)
 
 
 class Display:
@@ -156,14 +146,15 @@ def touch(environment):
 
 def run_script(folder, environment):
     script, log, picture = folder / "window.json", folder / "window.jsonl", folder / "window.png"
-    events = [{"at": 0.1, "resize": [500, 300]}, {"at": 0.4, "resize": [320, 240]}, {"at": 0.5, "resize": [0, 0]},
-              {"at": 0.7, "resize": [640, 360]}, {"at": 0.8, "scene": "chain"}, {"at": 1.0, "screenshot": str(picture)}]
+    events = [{"at": 0.1, "resize": [500, 300]}, {"at": 0.3, "lose_surface": True}, {"at": 0.4, "resize": [320, 240]},
+              {"at": 0.5, "resize": [0, 0]}, {"at": 0.7, "resize": [640, 360]}, {"at": 0.75, "lose_surface": True},
+              {"at": 0.8, "scene": "chain"}, {"at": 1.0, "screenshot": str(picture)}]
     script.write_text(json.dumps({"events": events}))
     done = subprocess.run([TOOL, "view", SCENE, "--frames", "70", "--script", str(script), "--log", str(log), "--size",
                            "400x240", "--backend", "cpu", "--validation"],
                           capture_output=True, text=True, env=environment, timeout=500)
     check(done.returncode == 0, f"exit code {done.returncode}: {done.stderr.strip()}")
-    lines = [json.loads(line) for line in log.read_text().splitlines()] if log.exists() else []
+    lines = lines_of(log)
     check(len(lines) == 70, f"{len(lines)} frames instead of 70")
     if lines:
         check(lines[0]["size"] == [400, 240], f"the window is {lines[0]['size']}")
@@ -173,24 +164,14 @@ def run_script(folder, environment):
     check(picture.exists() and picture.stat().st_size > 2000, "there is no screenshot")
 
 
-def main():
-    if not shutil.which("Xvfb") or not shutil.which("xdotool"):
-        print("Xvfb or xdotool is not installed: skipped")
-        return 77
-    if "vulkan" not in subprocess.run([TOOL, "info"], capture_output=True, text=True).stdout:
-        print("there is no Vulkan device: skipped")
-        return 77
-    with tempfile.TemporaryDirectory() as name, Display() as environment:
+def test(folder):
+    with Display() as environment:
         touch(environment)
-        run_script(Path(name), environment)
+        run_script(folder, environment)
         without = dict(environment, DISPLAY=":9999")
         done = subprocess.run([TOOL, "view", SCENE], capture_output=True, text=True, env=without, timeout=120)
         check(done.returncode == 4 and "--headless" in done.stderr, f"without a display: {done.returncode}, {done.stderr}")
-    for failure in failures:
-        print(failure)
-    print(f"{len(failures)} failed")
-    return 1 if failures else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run(test, "Xvfb", "xdotool"))

@@ -19,6 +19,12 @@ double round_number_above(double a)
     return 10 * power;
 }
 
+template <class T>
+void keep(std::span<const T> from, std::vector<T>& into)
+{
+    into.assign(from.begin(), from.end());
+}
+
 void set_text(std::string& text, const char* format, double value)
 {
     char buffer[32];
@@ -42,47 +48,55 @@ std::vector<ClothTopology> topologies_of(const Simulation& simulation)
 
 std::vector<DrawnSpring> drawn_springs(const Simulation& simulation, std::size_t cloth)
 {
-    const Scene& scene = simulation.scene();
-    const Springs& springs = scene.cloth(cloth).springs;
-    const auto limit_of = [&](SpringKind kind) {
-        if (scene.method == Method::acad)
-            return scene.acad.target == AcadTarget::rest ? 0 : scene.acad.activate_at;
-        if (scene.method != Method::constraint) return -1.0;
-        const SpringParameters& of = kind == SpringKind::structural ? springs.structural
-                                     : kind == SpringKind::shear    ? springs.shear
-                                                                    : springs.bend;
-        const bool constraint = of.role == SpringRole::constraint ||
-                                (of.role == SpringRole::automatic && kind != SpringKind::bend);
-        return constraint ? of.limit : -1.0;
-    };
     std::vector<DrawnSpring> drawn;
     for (const SpringListing& spring : simulation.springs(cloth))
-        drawn.push_back({spring.i, spring.j | static_cast<std::uint32_t>(spring.kind) << 30,
-                         static_cast<float>(spring.rest_length), static_cast<float>(limit_of(spring.kind))});
+        drawn.push_back({spring.i, spring.j, spring.kind, static_cast<float>(spring.rest_length)});
     return drawn;
 }
 
-void PictureSource::gather(Simulation& simulation, OverlaySet overlays)
+void PictureSource::gather(Simulation& simulation, OverlaySet overlays, const PictureSource* instead)
 {
     const std::size_t count = simulation.scene().cloth_count();
-    const bool direct = is_direct(simulation), known = before_.size() == count;
-    const bool strained =
-        overlays.has(Overlay::strain) || simulation.scene().camera.colour == ClothColour::strain;
-    frames_.clear();
-    extras_.assign(count, {});
-    for (std::size_t c = 0; c < count; ++c) {
-        if (direct)
-            frames_.emplace_back(simulation.device_state()->drawable(c));
+    time_ = simulation.time();
+    report_ = simulation.report();
+    positions_.resize(count);
+    const auto other = [&](std::size_t c) {
+        return instead && c < instead->positions_.size() &&
+               instead->positions_[c].size() == simulation.node_count(c);
+    };
+    if (!is_direct(simulation))
+        for (std::size_t c = 0; c < count; ++c)
+            keep(other(c) ? instead->positions(c) : simulation.positions(c), positions_[c]);
+    gather_overlays(simulation, overlays);
+}
+
+std::vector<ClothFrame> frames_of(Simulation& simulation, const PictureSource& source)
+{
+    std::vector<ClothFrame> frames;
+    for (std::size_t c = 0; c < simulation.scene().cloth_count(); ++c) {
+        if (PictureSource::is_direct(simulation))
+            frames.emplace_back(
+                DeviceCloth{simulation.device_state()->positions_on_device(c), simulation.node_count(c)});
         else
-            frames_.emplace_back(
-                HostCloth{simulation.positions(c), simulation.normals(c),
-                          strained ? simulation.strains(c) : std::span<const float>(),
-                          known ? std::span<const Vec3>(before_[c]) : std::span<const Vec3>()});
+            frames.emplace_back(HostCloth{source.positions(c)});
     }
-    if (overlays.has(Overlay::multipliers) || overlays.has(Overlay::active))
-        for (std::size_t c = 0; c < count; ++c) extras_[c].forces = simulation.multipliers(c);
+    return frames;
+}
+
+void PictureSource::gather_overlays(Simulation& simulation, OverlaySet overlays)
+{
+    const std::size_t count = simulation.scene().cloth_count();
+    extras_.assign(count, {});
+    held_.resize(count);
+    values_.resize(count);
+    if (overlays.has(Overlay::active))
+        for (std::size_t c = 0; c < count; ++c) {
+            keep(simulation.held_springs(c), held_[c]);
+            extras_[c].held = held_[c];
+        }
     if (overlays.has(Overlay::contacts)) gather_contacts(simulation);
     if (overlays.has(Overlay::multipliers)) {
+        for (std::size_t c = 0; c < count; ++c) keep(simulation.multipliers(c), values_[c]);
         scale_forces();
     } else if (overlays.has(Overlay::volume)) {
         colour_volumes(simulation);
@@ -90,15 +104,6 @@ void PictureSource::gather(Simulation& simulation, OverlaySet overlays)
         scale_.low = 0, scale_.high = 0.10f;
         scale_.diverging = false;
         scale_.title = "strain", scale_.low_text = "0 %", scale_.high_text = "10 %";
-    }
-}
-
-void PictureSource::keep_positions(Simulation& simulation)
-{
-    before_.resize(simulation.scene().cloth_count());
-    for (std::size_t c = 0; c < before_.size(); ++c) {
-        const auto positions = simulation.positions(c);
-        before_[c].assign(positions.begin(), positions.end());
     }
 }
 
@@ -126,9 +131,9 @@ void PictureSource::gather_contacts(Simulation& simulation)
 void PictureSource::scale_forces()
 {
     float most = 0;
-    for (ClothExtras& extra : extras_) {
-        extra.values = extra.forces;
-        for (const float force : extra.forces) most = std::max(most, force);
+    for (std::size_t c = 0; c < extras_.size(); ++c) {
+        extras_[c].values = values_[c];
+        for (const float force : values_[c]) most = std::max(most, force);
     }
     const double end = most > 0 && std::isfinite(most) ? round_number_above(double{most}) : 1;
     scale_.low = 0, scale_.high = static_cast<float>(end);
@@ -142,13 +147,12 @@ void PictureSource::colour_volumes(const Simulation& simulation)
     double most = 0;
     for (const BodyMeasures& body : simulation.report().bodies) most = std::max(most, std::abs(body.error));
     const double end = std::isfinite(most) ? round_number_above(std::max(most, 1e-7)) : 1;
-    volume_values_.resize(extras_.size());
     for (std::size_t c = 0; c < extras_.size(); ++c) {
-        volume_values_[c].assign(simulation.node_count(c), 0.0f);
+        values_[c].assign(simulation.node_count(c), 0.0f);
         for (const BodyMeasures& body : simulation.report().bodies)
             if (body.cloth == c)
-                std::fill(volume_values_[c].begin(), volume_values_[c].end(), static_cast<float>(body.error));
-        extras_[c].values = volume_values_[c];
+                std::fill(values_[c].begin(), values_[c].end(), static_cast<float>(body.error));
+        extras_[c].values = values_[c];
     }
     scale_.low = static_cast<float>(-end), scale_.high = static_cast<float>(end);
     scale_.diverging = true;

@@ -11,19 +11,19 @@ namespace pliant::tool {
 
 /// One for each cloth.
 std::vector<ClothTopology> topologies_of(const Simulation& simulation);
-/// Springs of a cloth, with the stretch at which constraints begin.
+/// Springs of a cloth, as Simulation::springs has them.
 std::vector<DrawnSpring> drawn_springs(const Simulation& simulation, std::size_t cloth);
 
-/// Keeps its memory from frame to frame, so that gathering allocates the first time alone.
+/// What a picture of a simulation at a moment is made from. It holds copies, so that the simulation may go
+/// on, and keeps their memory, so that gathering allocates the first time alone.
 class PictureSource {
 public:
-    /// Takes from a simulation what a picture with these overlays needs. What it gives is valid until the
-    /// simulation's next step.
-    void gather(Simulation& simulation, OverlaySet overlays);
-    /// The positions of now are those before the next step, for frames on the host.
-    void keep_positions(Simulation& simulation);
-    void forget_positions() { before_.clear(); }
-    /// Whether frames stay on the device.
+    /// Takes from a simulation what a picture with these overlays needs; no positions where the simulation is
+    /// direct, and those of another source where one is given.
+    void gather(Simulation& simulation, OverlaySet overlays, const PictureSource* instead = nullptr);
+    /// Only what overlays need, of the same state.
+    void gather_overlays(Simulation& simulation, OverlaySet overlays);
+    /// Whether pictures can be drawn from positions on the device.
     static bool is_direct(Simulation& simulation)
     {
         // The nodes of soft bodies and meshes lie in an order of their own, and bodies against an origin,
@@ -33,7 +33,9 @@ public:
         return simulation.device_state() != nullptr;
     }
 
-    std::span<const ClothFrame> frames() const { return frames_; }
+    double time() const { return time_; }  ///< s
+    const Report& report() const { return report_; }
+    std::span<const Vec3> positions(std::size_t cloth) const { return positions_[cloth]; }
     std::span<const ClothExtras> extras() const { return extras_; }
     const ValueScale& scale() const { return scale_; }
 
@@ -42,12 +44,17 @@ private:
     void scale_forces();
     void colour_volumes(const Simulation& simulation);
 
-    std::vector<ClothFrame> frames_;
+    double time_ = 0;
+    Report report_;
     std::vector<ClothExtras> extras_;
-    std::vector<std::vector<Vec3>> before_;
+    std::vector<std::vector<Vec3>> positions_;
     std::vector<std::vector<ContactPoint>> contacts_;
-    std::vector<std::vector<float>> volume_values_;
+    std::vector<std::vector<std::uint32_t>> held_;
+    std::vector<std::vector<float>> values_;
     ValueScale scale_;
 };
+
+/// The cloths of a simulation as they are now: valid until its next step.
+std::vector<ClothFrame> frames_of(Simulation& simulation, const PictureSource& source);
 
 }  // namespace pliant::tool

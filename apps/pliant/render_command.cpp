@@ -72,7 +72,7 @@ public:
           overlays_(overlays_of(options, scene)),
           renderer_(device, scene, topologies_of(simulation_))
     {
-        if (!overlays_.has_lines()) return;
+        if (!overlays_.needs_springs()) return;
         for (std::size_t c = 0; c < scene.cloth_count(); ++c)
             renderer_.set_springs(c, drawn_springs(simulation_, c));
     }
@@ -81,11 +81,12 @@ public:
     const Image& draw()
     {
         source_.gather(simulation_, overlays_);
+        const std::vector<ClothFrame> frames = frames_of(simulation_, source_);
         renderer_.draw({.camera = simulation_.scene().camera,
                         .time = simulation_.time(),
                         .overlays = overlays_,
                         .scale = &source_.scale(),
-                        .frames = source_.frames(),
+                        .frames = frames,
                         .extras = source_.extras()},
                        image_);
         return image_;

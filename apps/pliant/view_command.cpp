@@ -31,18 +31,19 @@ public:
         if (!file_ && !to_output_) return;
         Session& session = viewer.session();
         Simulation& simulation = session.simulation();
-        const auto numbers = [](Vec3d a) { return nlohmann::json::array({a.x, a.y, a.z}); };
+        const bool idle = session.is_idle();
+        if (idle) static_cast<void>(session.hold());  // what is told is of one state
         const Camera camera = viewer.camera().camera();
         nlohmann::json line = {
             {"frame", frame},
             {"scene", simulation.scene().name},
             {"method", name_of(simulation.scene().method)},
-            {"time", simulation.time()},
-            {"hash", hash_text(simulation.state_hash())},
+            {"time", session.time()},
             {"paused", session.paused},
-            {"finite", simulation.report().finite},
-            {"max_stretch", simulation.report().measures.max_stretch},
-            {"active", simulation.report().solver.active_last},
+            {"behind", session.is_behind()},
+            {"finite", session.report().finite},
+            {"max_stretch", session.report().measures.max_stretch},
+            {"active", session.report().solver.active_last},
             {"panel", viewer.view().panel},
             {"help", viewer.view().help},
             {"notice", session.notice},
@@ -53,6 +54,18 @@ public:
         for (std::size_t k = 0; k < overlay_count; ++k)
             if (viewer.view().overlays.has(static_cast<Overlay>(k)))
                 line["overlays"].push_back(overlay_names[k]);
+        if (idle) add_state(line, session);
+        if (file_)
+            file_->stream() << line.dump() << '\n';
+        else
+            std::cout << line.dump() << std::endl;  // whoever reads it follows the session
+    }
+
+    /// What is known between steps alone.
+    static void add_state(nlohmann::json& line, Session& session)
+    {
+        Simulation& simulation = session.simulation();
+        line["hash"] = hash_text(simulation.state_hash());
         std::size_t pins = 0;
         for (std::size_t c = 0; c < simulation.scene().cloth_count(); ++c) pins += simulation.pins(c).size();
         line["pins"] = pins;
@@ -64,10 +77,6 @@ public:
             line["held_position"] = numbers(session.position_of(*held));
             line["hand"] = numbers(session.hand());
         }
-        if (file_)
-            file_->stream() << line.dump() << '\n';
-        else
-            std::cout << line.dump() << std::endl;  // whoever reads it follows the session
     }
 
     void finish()
@@ -76,6 +85,8 @@ public:
     }
 
 private:
+    static nlohmann::json numbers(Vec3d a) { return nlohmann::json::array({a.x, a.y, a.z}); }
+
     std::unique_ptr<AtomicFile> file_;
     bool to_output_ = false;
 };
@@ -108,7 +119,7 @@ int view_command(const ViewOptions& options)
     // By a script, or without a window, time goes by frames: what happens does not depend on the machine.
     const bool by_frames = options.headless || !options.script_file.empty();
     constexpr double endless = std::numeric_limits<double>::infinity();
-    constexpr double longest = 0.25, patience = 1.0 / 30;  // s
+    constexpr double longest = 0.25;  // s
     auto next = script.begin();
     auto last = Clock::now();
     const auto start = last;
@@ -119,13 +130,12 @@ int view_command(const ViewOptions& options)
         const auto now = Clock::now();
         const double passed = std::chrono::duration<double>(now - last).count();
         last = now;
-        viewer.frame(by_frames ? 1 / script_frame_rate : std::min(passed, longest),
-                     by_frames ? endless : patience);
+        viewer.frame(by_frames ? 1 / script_frame_rate : std::min(passed, longest), by_frames ? endless : 0);
         log.add(frame, viewer);
     }
     log.finish();
     const double wall = std::chrono::duration<double>(Clock::now() - start).count();
-    const FrameCost& cost = viewer.view().cost;
+    const FrameCost cost = viewer.view().cost.median();
     std::printf("%llu frames in %.3g s; of a frame, steps %.3g ms, driver %.3g ms, viewer %.3g ms\n",
                 static_cast<unsigned long long>(frame), wall, cost.simulation, cost.driver, cost.own);
     if (const std::uint64_t messages = viewer.screen().device()->validation_messages(); messages > 0)

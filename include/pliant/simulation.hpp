@@ -237,6 +237,10 @@ public:
     /// The largest constraint force in N of the springs at each node (their Lagrange multipliers); 0 where
     /// none acts, and everywhere with the method mass_spring.
     std::span<const float> multipliers(std::size_t cloth = 0);
+    /// By spring, in the order of `springs`: 1 where a constraint holds it at the end of the last step, by
+    /// the marks of the solver itself (acad, and the paper's solver), or as it is beyond its limit and under
+    /// force (constraint); else 0. Empty for soft bodies, and with the methods mass_spring and volume.
+    std::span<const std::uint32_t> held_springs(std::size_t cloth = 0);
     /// Triangles of a cloth, fixed over time.
     std::span<const Triangle> triangles(std::size_t cloth = 0) const;
 

@@ -95,6 +95,9 @@ public:
 
     /// A scalar of a cloth's constraint solver, by its number in kernels/planes.kernel.glsl.
     virtual double solver_scalar(std::uint32_t cloth, std::size_t number) = 0;
+    /// Numbers of the arena of a cloth's constraint solver, see Hierarchy. `values` keeps its memory.
+    virtual void solver_numbers(std::uint32_t cloth, std::size_t first, std::size_t count,
+                                std::vector<float>& values) = 0;
 
     virtual const PassClock& clock() const = 0;
     virtual std::string device_name() const = 0;

@@ -45,6 +45,8 @@ public:
     }
     constexpr void toggle(Overlay overlay) { set(overlay, !has(overlay)); }
     constexpr bool has_lines() const { return has(Overlay::springs) || has(Overlay::active); }
+    constexpr bool needs_springs() const { return has_lines() || has(Overlay::strain); }
+    friend constexpr bool operator==(OverlaySet, OverlaySet) = default;
     static constexpr bool is_colour(Overlay overlay)
     {
         return overlay == Overlay::strain || overlay == Overlay::multipliers || overlay == Overlay::volume;

@@ -27,6 +27,9 @@ constexpr std::uint32_t cloth_vert[] = {
 constexpr std::uint32_t cloth_shadow_vert[] = {
 #include "shaders/cloth_shadow.vert.inc"
 };
+constexpr std::uint32_t cloth_surface_comp[] = {
+#include "shaders/cloth_surface.comp.inc"
+};
 constexpr std::uint32_t ground_frag[] = {
 #include "shaders/ground.frag.inc"
 };
@@ -152,7 +155,7 @@ vk::raii::DescriptorSetLayout make_frame_set(const Device& device)
 {
     using Stage = vk::ShaderStageFlagBits;
     const vk::DescriptorSetLayoutBinding bindings[] = {
-        {0, vk::DescriptorType::eUniformBuffer, 1, Stage::eVertex | Stage::eFragment},
+        {0, vk::DescriptorType::eUniformBuffer, 1, Stage::eVertex | Stage::eFragment | Stage::eCompute},
         {1, vk::DescriptorType::eCombinedImageSampler, 1, Stage::eFragment}};
     return {device.handle(), vk::DescriptorSetLayoutCreateInfo({}, bindings)};
 }
@@ -161,7 +164,8 @@ vk::raii::DescriptorSetLayout make_cloth_set(const Device& device)
 {
     std::array<vk::DescriptorSetLayoutBinding, cloth_binding_count> bindings;
     for (std::uint32_t i = 0; i < bindings.size(); ++i)
-        bindings[i] = {i, vk::DescriptorType::eStorageBuffer, 1, vk::ShaderStageFlagBits::eVertex};
+        bindings[i] = {i, vk::DescriptorType::eStorageBuffer, 1,
+                       vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eCompute};
     return {device.handle(), vk::DescriptorSetLayoutCreateInfo({}, bindings)};
 }
 
@@ -169,9 +173,15 @@ vk::raii::PipelineLayout make_layout(const Device& device, vk::DescriptorSetLayo
                                      vk::DescriptorSetLayout cloth)
 {
     const vk::DescriptorSetLayout sets[] = {frame, cloth};
-    const vk::PushConstantRange constants(
-        vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, push_constant_bytes);
+    const vk::PushConstantRange constants(push_constant_stages, 0, push_constant_bytes);
     return {device.handle(), vk::PipelineLayoutCreateInfo({}, sets, constants)};
+}
+
+vk::raii::Pipeline make_surface(const Device& device, vk::PipelineLayout layout)
+{
+    const auto module = device.make_shader(cloth_surface_comp);
+    const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main");
+    return {device.handle(), nullptr, vk::ComputePipelineCreateInfo({}, stage, layout)};
 }
 
 Recipe recipe_of(Drawn drawn)
@@ -223,6 +233,7 @@ PictureKit::PictureKit(std::shared_ptr<Device> device, vk::RenderPass pass, vk::
       frame_set_(make_frame_set(*device_)),
       cloth_set_(make_cloth_set(*device_)),
       layout_(make_layout(*device_, *frame_set_, *cloth_set_)),
+      surface_(make_surface(*device_, *layout_)),
       pipelines_{nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr},
       shapes_(make_shape_meshes()),
       shape_vertices_(

@@ -36,6 +36,9 @@ public:
     vk::PipelineLayout layout() const { return *layout_; }
     /// Made when it is first asked for. Null for wires on a device that cannot draw them.
     vk::Pipeline pipeline(Drawn drawn) const;
+    /// Computes what is seen of a cloth's nodes, in groups of `surface_group`: shaders/cloth_surface.comp.
+    vk::Pipeline surface() const { return *surface_; }
+    static constexpr std::uint32_t surface_group = 64;
 
     const ShapeMeshes& shapes() const { return shapes_; }
     vk::Buffer shape_vertices() const { return *shape_vertices_; }
@@ -49,12 +52,15 @@ private:
     vk::raii::DescriptorSetLayout frame_set_;  ///< set 0: uniforms and shadow map
     vk::raii::DescriptorSetLayout cloth_set_;  ///< set 1: shaders/cloth_nodes.glsl
     vk::raii::PipelineLayout layout_;          ///< one for all; push constants for what needs them
+    vk::raii::Pipeline surface_;
     mutable std::array<vk::raii::Pipeline, drawn_count> pipelines_;
     ShapeMeshes shapes_;
     Buffer shape_vertices_, shape_indices_;
 };
 
 constexpr std::uint32_t push_constant_bytes = 80;
-constexpr std::uint32_t cloth_binding_count = 8;
+constexpr std::uint32_t cloth_binding_count = 11;
+constexpr vk::ShaderStageFlags push_constant_stages =
+    vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment | vk::ShaderStageFlagBits::eCompute;
 
 }  // namespace pliant::vulkan

@@ -1,6 +1,8 @@
 #include "render/scene_drawing.hpp"
 
+#include <bit>
 #include <cstring>
+#include <numeric>
 
 #include "render/cloth_pattern.hpp"
 
@@ -11,15 +13,39 @@ using Usage = vk::BufferUsageFlagBits;
 
 constexpr vk::Extent2D legend_least{400, 240};  // pixels; in smaller pictures it would hide the cloth
 
-/// Nodes are vec4 on the device.
-void copy_nodes(std::span<const Vec3> from, const Buffer& to)
-{
-    auto* out = static_cast<float*>(to.mapped);
-    for (const Vec3& v : from) {
-        out[0] = v.x, out[1] = v.y, out[2] = v.z, out[3] = 0;
-        out += 4;
+constexpr std::uint32_t floats_uploaded = 3, floats_on_device = 4;  // of a node
+
+/// As shaders/cloth_surface.comp.
+struct SurfaceStyle {
+    std::uint32_t node_count, rows, columns, stride, stride_before, strain;
+};
+
+/// Lists of pairs, one list for each node, as shaders take them: where each begins, then all of them.
+class PairLists {
+public:
+    explicit PairLists(std::uint32_t node_count) : begins_(node_count + 1, 0) {}
+    void add(std::uint32_t node, std::uint32_t first, std::uint32_t second)
+    {
+        pairs_.push_back({node, first, second});
+        begins_[node + 1] += 2;
     }
-}
+    std::vector<std::uint32_t> packed() const
+    {
+        std::vector<std::uint32_t> all(begins_.size() + 2 * pairs_.size());
+        std::partial_sum(begins_.begin(), begins_.end(), all.begin());
+        for (std::size_t k = 0; k < begins_.size(); ++k) all[k] += static_cast<std::uint32_t>(begins_.size());
+        std::vector<std::uint32_t> next(all.begin(), all.begin() + static_cast<long>(begins_.size()));
+        for (const auto& [node, first, second] : pairs_) {
+            all[next[node]++] = first;
+            all[next[node]++] = second;
+        }
+        return all;
+    }
+
+private:
+    std::vector<std::uint32_t> begins_;
+    std::vector<std::array<std::uint32_t, 3>> pairs_;
+};
 
 /// As shaders/line.vert.
 struct LineStyle {
@@ -91,6 +117,8 @@ SceneDrawing::ClothDrawing SceneDrawing::make_cloth(const Cloth& cloth, const Cl
                        std::to_string(topology.node_count));
     ClothDrawing drawing;
     drawing.node_count = topology.node_count;
+    drawing.rows = topology.rows;
+    drawing.columns = topology.columns;
     drawing.index_count = static_cast<std::uint32_t>(3 * topology.triangles.size());
     drawing.indices = device_->make_buffer(topology.triangles.size_bytes(), Usage::eIndexBuffer,
                                            Memory::device, "cloth triangles");
@@ -100,6 +128,21 @@ SceneDrawing::ClothDrawing SceneDrawing::make_cloth(const Cloth& cloth, const Cl
     drawing.pattern =
         device_->make_buffer(pattern_bytes, Usage::eStorageBuffer, Memory::device, "cloth pattern");
     device_->write(drawing.pattern, pattern.data(), pattern_bytes);
+    const auto make = [&](std::size_t floats, const char* name) {
+        return device_->make_buffer(floats * sizeof(float) * topology.node_count, Usage::eStorageBuffer,
+                                    Memory::device, name);
+    };
+    drawing.positions = make(4, "seen positions");
+    drawing.normals = make(4, "seen normals");
+    drawing.strains = make(1, "seen strains");
+    const std::vector<float> no_strains(topology.node_count, 0.0f);
+    device_->write(drawing.strains, no_strains.data(), no_strains.size() * sizeof(float));
+    if (topology.columns == 0) {
+        PairLists ring(topology.node_count);
+        for (const Triangle& t : topology.triangles)
+            for (std::size_t k = 0; k < 3; ++k) ring.add(t[k], t[(k + 1) % 3], t[(k + 2) % 3]);
+        drawing.ring = make_filled(ring.packed(), "triangles around nodes");
+    }
     const vk::DescriptorSetLayout layout = kit_->cloth_set();
     for (unsigned k = 0; k < slots; ++k)
         drawing.slots.emplace_back().set =
@@ -107,32 +150,30 @@ SceneDrawing::ClothDrawing SceneDrawing::make_cloth(const Cloth& cloth, const Cl
     return drawing;
 }
 
+template <class T>
+Buffer SceneDrawing::make_filled(const std::vector<T>& values, const char* name) const
+{
+    Buffer buffer =
+        device_->make_buffer(values.size() * sizeof(T), Usage::eStorageBuffer, Memory::device, name);
+    device_->write(buffer, values.data(), values.size() * sizeof(T));
+    return buffer;
+}
+
 void SceneDrawing::set_springs(std::size_t cloth, std::span<const DrawnSpring> springs)
 {
     ClothDrawing& drawing = cloths_.at(cloth);
-    drawing.lines =
-        device_->make_buffer(springs.size_bytes(), Usage::eStorageBuffer, Memory::device, "drawn springs");
-    device_->write(drawing.lines, springs.data(), springs.size_bytes());
-    drawing.line_count = static_cast<std::uint32_t>(springs.size());
-}
-
-void SceneDrawing::keep(const vk::raii::CommandBuffer& commands, std::span<const vk::Buffer> positions)
-{
-    using Stage = vk::PipelineStageFlagBits;
-    using Access = vk::AccessFlagBits;
-    // What computed the positions, and what still draws from the last copy.
-    barrier(commands, Stage::eComputeShader | Stage::eVertexShader | Stage::eTransfer,
-            Access::eShaderWrite | Access::eTransferWrite, Stage::eTransfer,
-            Access::eTransferRead | Access::eTransferWrite);
-    for (std::size_t c = 0; c < cloths_.size() && c < positions.size(); ++c) {
-        const vk::DeviceSize bytes = vk::DeviceSize{4} * sizeof(float) * cloths_[c].node_count;
-        if (cloths_[c].kept.size == 0)
-            cloths_[c].kept =
-                device_->make_buffer(bytes, Usage::eStorageBuffer, Memory::device, "positions before");
-        commands.copyBuffer(positions[c], *cloths_[c].kept, vk::BufferCopy(0, 0, bytes));
+    std::vector<std::array<std::uint32_t, 2>> lines;
+    PairLists neighbours(drawing.node_count);
+    for (const DrawnSpring& spring : springs) {
+        lines.push_back({spring.i, spring.j | static_cast<std::uint32_t>(spring.kind) << 30});
+        if (spring.kind == SpringKind::bend) continue;
+        const auto rest = std::bit_cast<std::uint32_t>(spring.rest_length);
+        neighbours.add(spring.i, spring.j, rest);
+        neighbours.add(spring.j, spring.i, rest);
     }
-    barrier(commands, Stage::eTransfer, Access::eTransferRead | Access::eTransferWrite,
-            Stage::eComputeShader | Stage::eVertexShader, Access::eShaderRead | Access::eShaderWrite);
+    drawing.lines = make_filled(lines, "drawn springs");
+    drawing.neighbours = make_filled(neighbours.packed(), "springs around nodes");
+    drawing.line_count = static_cast<std::uint32_t>(springs.size());
 }
 
 void SceneDrawing::prepare(const PictureState& state, vk::Extent2D size, unsigned slot_index)
@@ -149,7 +190,7 @@ void SceneDrawing::prepare(const PictureState& state, vk::Extent2D size, unsigne
     slot.legend = legend_text(scale);
     for (std::size_t i = 0; i < cloths_.size(); ++i)
         bind_cloth(cloths_[i], cloths_[i].slots[slot_index], state.frames[i],
-                   state.extras.empty() ? ClothExtras{} : state.extras[i], state.overlays, state.blend);
+                   state.extras.empty() ? ClothExtras{} : state.extras[i]);
     for (std::size_t i = 0; i < colliders_.size(); ++i) slot.placed[i] = placed_at(colliders_[i], state.time);
     FrameUniforms uniforms = frame_uniforms(stage_, state.camera, size.width, size.height, ShadowMap::edge);
     uniforms.value_low = scale.low;
@@ -162,47 +203,70 @@ void SceneDrawing::prepare(const PictureState& state, vk::Extent2D size, unsigne
 void SceneDrawing::begin(const vk::raii::CommandBuffer& commands, const PictureTarget& target,
                          unsigned slot) const
 {
-    // What computed or uploaded the nodes has been submitted before; here it becomes visible.
-    using Stage = vk::PipelineStageFlagBits;
-    using Access = vk::AccessFlagBits;
-    barrier(commands, Stage::eComputeShader | Stage::eTransfer, Access::eShaderWrite | Access::eTransferWrite,
-            Stage::eVertexInput | Stage::eVertexShader,
-            Access::eShaderRead | Access::eIndexRead | Access::eVertexAttributeRead);
+    record_surfaces(commands, slot);
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, kit_->layout(), 0, *slots_[slot].frame_set,
                                 {});
     record_shadows(commands, slot);
     record_picture(commands, target, slot);
 }
 
-void SceneDrawing::bind_cloth(ClothDrawing& cloth, ClothSlot& slot, const ClothFrame& frame,
-                              const ClothExtras& extras, OverlaySet overlays, float blend) const
+void SceneDrawing::record_surfaces(const vk::raii::CommandBuffer& commands, unsigned slot) const
 {
-    DeviceClothBuffers nodes;
-    vk::Buffer before;
+    // What computed or copied the nodes has been submitted before; here it becomes visible. And the last
+    // picture may still be drawn from what is written now.
+    using Stage = vk::PipelineStageFlagBits;
+    using Access = vk::AccessFlagBits;
+    barrier(commands, Stage::eComputeShader | Stage::eTransfer | Stage::eVertexShader,
+            Access::eShaderWrite | Access::eTransferWrite, Stage::eComputeShader,
+            Access::eShaderRead | Access::eShaderWrite);
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute, kit_->surface());
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, kit_->layout(), 0, *slots_[slot].frame_set,
+                                {});
+    const bool strain = slots_[slot].overlays.has(Overlay::strain);
+    for (const ClothDrawing& cloth : cloths_) {
+        const ClothSlot& of = cloth.slots[slot];
+        commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, kit_->layout(), 1, *of.set, {});
+        push(commands, SurfaceStyle{cloth.node_count, cloth.rows, cloth.columns, of.stride, of.stride_before,
+                                    strain && cloth.neighbours.size > 0 && !of.has_values ? 1u : 0u});
+        commands.dispatch((cloth.node_count + PictureKit::surface_group - 1) / PictureKit::surface_group, 1,
+                          1);
+    }
+    barrier(commands, Stage::eComputeShader, Access::eShaderWrite, Stage::eVertexInput | Stage::eVertexShader,
+            Access::eShaderRead | Access::eIndexRead | Access::eVertexAttributeRead);
+}
+
+void SceneDrawing::bind_cloth(const ClothDrawing& cloth, ClothSlot& slot, const ClothFrame& frame,
+                              const ClothExtras& extras) const
+{
+    vk::Buffer now, before;
     if (const auto* host = std::get_if<HostCloth>(&frame)) {
         upload(cloth, slot, *host);
-        nodes = {*slot.positions, *slot.normals, *slot.strains, cloth.node_count};
-        before = host->before.empty() ? *slot.positions : *slot.before;
+        now = *slot.positions;
+        before = host->before.empty() ? now : *slot.before;
+        slot.stride = slot.stride_before = floats_uploaded;
     } else {
-        nodes = std::get<DeviceClothBuffers>(frame);
-        if (nodes.node_count != cloth.node_count)
+        const auto& device = std::get<DeviceCloth>(frame);
+        if (device.node_count != cloth.node_count)
             refuse("a picture of a cloth of " + std::to_string(cloth.node_count) +
-                   " nodes was given buffers of " + std::to_string(nodes.node_count));
-        before = blend < 1 && cloth.kept.size > 0 ? *cloth.kept : nodes.position;
+                   " nodes was given buffers of " + std::to_string(device.node_count));
+        now = device.positions;
+        before = device.before ? device.before : now;
+        slot.stride = slot.stride_before = floats_on_device;
     }
     take_extras(cloth, slot, extras);
-    const auto or_nothing = [&](const Buffer& buffer, bool wanted) {
-        return wanted && buffer.size > 0 ? *buffer : *nothing_;
-    };
-    const bool own_values = !extras.values.empty() && !overlays.has(Overlay::strain);
-    const std::array<vk::Buffer, cloth_binding_count> wanted{nodes.position,
-                                                             nodes.normal,
-                                                             own_values ? *slot.values : nodes.strain,
+    slot.has_values = !extras.values.empty();
+    const auto or_nothing = [&](const Buffer& buffer) { return buffer.size > 0 ? *buffer : *nothing_; };
+    const std::array<vk::Buffer, cloth_binding_count> wanted{*cloth.positions,
+                                                             *cloth.normals,
+                                                             slot.has_values ? *slot.values : *cloth.strains,
                                                              *cloth.pattern,
                                                              before,
-                                                             or_nothing(cloth.lines, true),
-                                                             or_nothing(slot.points, slot.point_count > 0),
-                                                             or_nothing(slot.forces, !extras.forces.empty())};
+                                                             or_nothing(cloth.lines),
+                                                             or_nothing(slot.points),
+                                                             or_nothing(slot.held),
+                                                             now,
+                                                             or_nothing(cloth.ring),
+                                                             or_nothing(cloth.neighbours)};
     if (wanted == slot.bound) return;
     slot.bound = wanted;
     std::array<vk::DescriptorBufferInfo, cloth_binding_count> infos;
@@ -214,46 +278,34 @@ void SceneDrawing::bind_cloth(ClothDrawing& cloth, ClothSlot& slot, const ClothF
 
 void SceneDrawing::upload(const ClothDrawing& cloth, ClothSlot& slot, const HostCloth& frame) const
 {
-    const auto matches = [&](std::size_t size) { return size == cloth.node_count; };
-    if (!matches(frame.positions.size()) || !matches(frame.normals.size()) ||
-        (!frame.strains.empty() && !matches(frame.strains.size())) ||
-        (!frame.before.empty() && !matches(frame.before.size())))
-        refuse("a picture of a cloth of " + std::to_string(cloth.node_count) + " nodes was given " +
-               std::to_string(frame.positions.size()) + " positions, " +
-               std::to_string(frame.normals.size()) + " normals and " + std::to_string(frame.strains.size()) +
-               " strains");
-    const auto make = [&](Buffer& buffer, std::size_t size, const char* name) {
+    const auto take = [&](Buffer& buffer, std::span<const Vec3> positions, const char* name) {
+        if (positions.size() != cloth.node_count)
+            refuse("a picture of a cloth of " + std::to_string(cloth.node_count) + " nodes was given " +
+                   std::to_string(positions.size()) + " positions");
+        static_assert(sizeof(Vec3) == floats_uploaded * sizeof(float));
         if (buffer.size == 0)
             buffer =
-                device_->make_buffer(size * cloth.node_count, Usage::eStorageBuffer, Memory::upload, name);
+                device_->make_buffer(positions.size_bytes(), Usage::eStorageBuffer, Memory::upload, name);
+        std::memcpy(buffer.mapped, positions.data(), positions.size_bytes());
     };
-    make(slot.positions, 4 * sizeof(float), "uploaded positions");
-    make(slot.normals, 4 * sizeof(float), "uploaded normals");
-    make(slot.strains, sizeof(float), "uploaded strains");
-    copy_nodes(frame.positions, slot.positions);
-    copy_nodes(frame.normals, slot.normals);
-    if (frame.strains.empty())
-        std::memset(slot.strains.mapped, 0, cloth.node_count * sizeof(float));
-    else
-        std::memcpy(slot.strains.mapped, frame.strains.data(), frame.strains.size_bytes());
-    if (frame.before.empty()) return;
-    make(slot.before, 4 * sizeof(float), "uploaded positions before");
-    copy_nodes(frame.before, slot.before);
+    take(slot.positions, frame.positions, "uploaded positions");
+    if (!frame.before.empty()) take(slot.before, frame.before, "uploaded positions before");
 }
 
 void SceneDrawing::take_extras(const ClothDrawing& cloth, ClothSlot& slot, const ClothExtras& extras) const
 {
-    const auto take = [&](Buffer& buffer, std::span<const float> numbers, const char* name) {
+    const auto take = [&](Buffer& buffer, auto numbers, std::size_t count, const char* name) {
         if (numbers.empty()) return;
-        if (numbers.size() != cloth.node_count)
-            refuse("a picture of a cloth of " + std::to_string(cloth.node_count) + " nodes was given " +
-                   std::to_string(numbers.size()) + " values of an overlay");
-        if (buffer.size == 0)
+        if (numbers.size() != count)
+            refuse("a picture of a cloth was given " + std::to_string(numbers.size()) +
+                   " values of an overlay instead of " + std::to_string(count));
+        if (buffer.size < numbers.size_bytes())
             buffer = device_->make_buffer(numbers.size_bytes(), Usage::eStorageBuffer, Memory::upload, name);
         std::memcpy(buffer.mapped, numbers.data(), numbers.size_bytes());
     };
-    take(slot.values, extras.values, "overlay values");
-    take(slot.forces, extras.forces, "overlay forces");
+    take(slot.values, extras.values, cloth.node_count, "overlay values");
+    take(slot.held, extras.held, cloth.line_count, "held springs");
+    slot.has_held = !extras.held.empty();
     slot.point_count =
         static_cast<std::uint32_t>(std::min<std::size_t>(extras.contacts.size(), cloth.node_count));
     if (slot.point_count == 0) return;
@@ -320,7 +372,9 @@ void SceneDrawing::draw_overlays(const vk::raii::CommandBuffer& commands, vk::Ex
         push(commands, LineStyle{kind, length});
         for (const ClothDrawing& cloth : cloths_) {
             bind_set(commands, cloth.slots[slot]);
-            commands.draw(2 * (kind == 2 ? cloth.node_count : cloth.line_count), 1, 0, 0);
+            const bool any = kind != 1 || cloth.slots[slot].has_held;
+            const std::uint32_t count = kind == 2 ? cloth.node_count : cloth.line_count;
+            if (any) commands.draw(2 * count, 1, 0, 0);
         }
     };
     if (shown.has_lines() || shown.has(Overlay::normals)) bind(commands, Drawn::lines);
@@ -377,8 +431,7 @@ void SceneDrawing::draw_floors(const vk::raii::CommandBuffer& commands, unsigned
 template <class Constants>
 void SceneDrawing::push(const vk::raii::CommandBuffer& commands, const Constants& constants) const
 {
-    commands.pushConstants<Constants>(
-        kit_->layout(), vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, constants);
+    commands.pushConstants<Constants>(kit_->layout(), push_constant_stages, 0, constants);
 }
 
 }  // namespace pliant::vulkan

@@ -7,19 +7,20 @@
 #include <variant>
 #include <vector>
 
-#include "backend/vulkan/device_state.hpp"
+#include "backend/vulkan/device.hpp"
 #include "pliant/scene.hpp"
+#include "pliant/simulation.hpp"
 #include "render/legend.hpp"
 #include "render/pipelines.hpp"
 #include "render/stage.hpp"
 
 namespace pliant {
 
-/// A spring as shaders/line.vert has it.
+/// A spring of a cloth.
 struct DrawnSpring {
-    std::uint32_t i = 0, j_and_class = 0;  ///< nodes; the class, 0 to 3, in the uppermost bits
-    float rest_length = 0;                 ///< m
-    float limit = -1;  ///< stretch at which a constraint begins to hold it; below 0 where none does
+    std::uint32_t i = 0, j = 0;  ///< nodes
+    SpringKind kind = SpringKind::structural;
+    float rest_length = 0;  ///< m
 };
 
 /// What does not change of a cloth.
@@ -31,14 +32,19 @@ struct ClothTopology {
 
 /// A cloth at a moment, in the memory of the host: one entry for each node.
 struct HostCloth {
-    std::span<const Vec3> positions;
-    std::span<const Vec3> normals;        ///< unit length
-    std::span<const float> strains = {};  ///< may be empty, and then counts as zero
-    std::span<const Vec3> before = {};    ///< positions of the state before; may be empty without blending
+    std::span<const Vec3> positions;    ///< m
+    std::span<const Vec3> before = {};  ///< of the state before; may be empty without blending
+};
+
+/// The same on the device: a vec4 for each node, whose w counts for nothing.
+struct DeviceCloth {
+    vk::Buffer positions;
+    std::uint32_t node_count = 0;
+    vk::Buffer before = {};  ///< may be null without blending
 };
 
 /// A cloth at a moment: on the host, or where the simulation has it on the device.
-using ClothFrame = std::variant<HostCloth, DeviceClothBuffers>;
+using ClothFrame = std::variant<HostCloth, DeviceCloth>;
 
 /// A node that touches a collider.
 struct ContactPoint {
@@ -48,8 +54,8 @@ struct ContactPoint {
 
 /// What overlays need of a cloth beside its frame, from the host; what is not needed may be empty.
 struct ClothExtras {
-    std::span<const float> values = {};  ///< the colour at each node, instead of the strains
-    std::span<const float> forces = {};  ///< N, the largest of a constraint at each node: multipliers
+    std::span<const float> values = {};        ///< the colour at each node, instead of the strains
+    std::span<const std::uint32_t> held = {};  ///< by spring: 1 where a constraint holds it
     std::span<const ContactPoint> contacts = {};
 };
 
@@ -72,12 +78,9 @@ public:
     SceneDrawing(std::shared_ptr<const PictureKit> kit, const Scene& scene,
                  std::span<const ClothTopology> topologies, unsigned slots = 1);
 
-    /// Uploads the springs of a cloth, for the overlays that show them.
+    /// Uploads the springs of a cloth, for the overlays that show them; without, strains are 0.
     void set_springs(std::size_t cloth, std::span<const DrawnSpring> springs);
     bool has_springs() const { return !cloths_.empty() && cloths_.front().lines.size > 0; }
-
-    /// Records copies of positions, one buffer for each cloth: they are the state before the next picture's.
-    void keep(const vk::raii::CommandBuffer& commands, std::span<const vk::Buffer> positions);
 
     /// Takes the state that the next picture of a slot shows, one entry of its frames for each topology. The
     /// commands of the slot's last picture must have run: what they read is written here. Throws
@@ -91,17 +94,18 @@ public:
 private:
     /// What a picture on its way reads of a cloth, so that the next one must not write it.
     struct ClothSlot {
-        Buffer positions, normals, strains, before;  // only for host frames, made with the first of them
-        Buffer values, forces, points;               // only for overlays, made when one is there
-        std::uint32_t point_count = 0;
+        Buffer positions, before;     // only for host frames, made with the first of them
+        Buffer values, held, points;  // only for overlays, made when one is there
+        std::uint32_t point_count = 0, stride = 0, stride_before = 0;
+        bool has_values = false, has_held = false;
         vk::raii::DescriptorSet set{nullptr};
         std::array<vk::Buffer, cloth_binding_count> bound{};
     };
     /// One cloth on the device.
     struct ClothDrawing {
-        std::uint32_t node_count = 0, index_count = 0, line_count = 0;
-        Buffer indices, pattern, lines;
-        Buffer kept;  // positions before, of frames on the device
+        std::uint32_t node_count = 0, rows = 0, columns = 0, index_count = 0, line_count = 0;
+        Buffer indices, pattern, ring, lines, neighbours;
+        Buffer positions, normals, strains;  // as seen; shaders/cloth_surface.comp makes them
         std::vector<ClothSlot> slots;
     };
     struct Slot {
@@ -112,12 +116,15 @@ private:
         LegendText legend{};
     };
 
+    template <class T>
+    Buffer make_filled(const std::vector<T>& values, const char* name) const;
     ClothDrawing make_cloth(const Cloth& cloth, const ClothTopology& topology, unsigned slots) const;
     Slot make_slot() const;
-    void bind_cloth(ClothDrawing& cloth, ClothSlot& slot, const ClothFrame& frame, const ClothExtras& extras,
-                    OverlaySet overlays, float blend) const;
+    void bind_cloth(const ClothDrawing& cloth, ClothSlot& slot, const ClothFrame& frame,
+                    const ClothExtras& extras) const;
     void upload(const ClothDrawing& cloth, ClothSlot& slot, const HostCloth& frame) const;
     void take_extras(const ClothDrawing& cloth, ClothSlot& slot, const ClothExtras& extras) const;
+    void record_surfaces(const vk::raii::CommandBuffer& commands, unsigned slot) const;
     void record_shadows(const vk::raii::CommandBuffer& commands, unsigned slot) const;
     void record_picture(const vk::raii::CommandBuffer& commands, const PictureTarget& target,
                         unsigned slot) const;

@@ -104,7 +104,7 @@ bool WindowTarget::present(const Device& device, std::uint32_t image) const
     const vk::Semaphore wait = *images_[image].drawn;
     const vk::SwapchainKHR swapchain = *swapchain_;
     try {
-        return device.queue().presentKHR(vk::PresentInfoKHR(wait, swapchain, image)) == vk::Result::eSuccess;
+        return device.present(vk::PresentInfoKHR(wait, swapchain, image)) == vk::Result::eSuccess;
     } catch (const vk::OutOfDateKHRError&) {
         return false;
     }

@@ -16,6 +16,7 @@
 #include "body/cloth_model.hpp"
 #include "kernels/planes.hpp"
 #include "simulation/hand.hpp"
+#include "simulation/held_springs.hpp"
 #include "solve/frame.hpp"
 #include "solve/mass_spring.hpp"
 #include "solve/newton_multigrid.hpp"
@@ -485,12 +486,18 @@ public:
         const std::vector<float>& all = read_model(place.model, resource);
         const Vec3d origin = resource == Resource::position ? models[place.model].origin : Vec3d{};
         target.values.resize(place.node_count);
+        target.frame = state_number;
+        if (place.node_of_vertex.empty() && origin == Vec3d{}) {
+            static_assert(sizeof(Vec3) == 3 * sizeof(float));
+            std::memcpy(static_cast<void*>(target.values.data()), &all[3 * std::size_t{place.first_node}],
+                        target.values.size() * sizeof(Vec3));
+            return target.values;
+        }
         for (std::size_t i = 0; i < target.values.size(); ++i) {
             const std::size_t at = 3 * place.node(i);
             const Vec3 a{all[at], all[at + 1], all[at + 2]};
             target.values[i] = origin == Vec3d{} ? a : to_float(to_double(a) + origin);
         }
-        target.frame = state_number;
         return target.values;
     }
 
@@ -523,11 +530,28 @@ public:
         if (!uses_solver(stepped_method(scene))) {
             target.values.assign(places[cloth].node_count, 0.0f);
         } else {
-            Program program{next_program_id++, {}, parity};
-            append_multipliers(models[model], model, parity, program.calls);
+            Program& program = multiplier_programs[{model, parity}];
+            if (program.calls.empty()) {
+                program = {next_program_id++, {}, parity};
+                append_multipliers(models[model], model, parity, program.calls);
+            }
             runner->run(program, input(1 / scene.time.frame_rate));
             runner->read(model, Resource::multiplier, parity, target.values);
         }
+        target.frame = state_number;
+        return target.values;
+    }
+
+    std::span<const std::uint32_t> held_springs(std::size_t cloth)
+    {
+        ReadBack::Values<std::uint32_t>& target = read_backs.at(cloth).held;
+        if (target.frame == state_number) return target.values;
+        const ClothPlace& place = places[cloth];
+        if (models[place.model].is_body()) return {};  // they have no constraints
+        held.resize(places.size());
+        if (!held[cloth]) held[cloth].emplace(models[place.model], scene, scene.cloth(cloth));
+        const auto forces = multipliers(cloth);
+        held[cloth]->read(*runner, place.model, values(cloth, Resource::position), forces, target.values);
         target.frame = state_number;
         return target.values;
     }
@@ -575,6 +599,7 @@ public:
         };
         Values<Vec3> positions, velocities, normals;
         Values<float> strains, multipliers;
+        Values<std::uint32_t> held;
     };
 
     /// Where a cloth or body of the scene lies in the models.
@@ -601,14 +626,16 @@ public:
     std::vector<std::vector<Vec3>> attached;  ///< by cloth, see FrameInput
     /// By steps, parity and the model that a hand holds.
     std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, Program> programs;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, Program> drawing_programs;  ///< by model and parity
+    /// By model and parity.
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Program> drawing_programs, multiplier_programs;
     std::uint64_t next_program_id = 1;
     std::uint32_t parity = 0;
     std::uint64_t state_number = 1;  ///< counts states; 0 is none
     std::vector<ReadBack> read_backs;
     std::vector<std::map<Resource, ReadBack::Values<float>>> read_models;
-    std::vector<std::uint64_t> drawn;            ///< by model: the state of its normals and strains
-    std::vector<std::vector<VolumeGoal>> goals;  ///< by model, see FrameInput
+    std::vector<std::optional<HeldSprings>> held;  ///< by cloth, made when first asked for
+    std::vector<std::uint64_t> drawn;              ///< by model: the state of its normals and strains
+    std::vector<std::vector<VolumeGoal>> goals;    ///< by model, see FrameInput
     double loss_sum = 0;
     Report report;
     double newton_sum = 0, iterations_sum = 0, active_sum = 0;  ///< of the solver, over the run
@@ -740,6 +767,11 @@ std::span<const Triangle> Simulation::triangles(std::size_t cloth) const
 std::span<const float> Simulation::multipliers(std::size_t cloth)
 {
     return implementation_->multipliers(cloth);
+}
+
+std::span<const std::uint32_t> Simulation::held_springs(std::size_t cloth)
+{
+    return implementation_->held_springs(cloth);
 }
 
 std::uint64_t Simulation::state_hash()

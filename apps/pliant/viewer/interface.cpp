@@ -71,7 +71,7 @@ Interface::Interface(const Screen& screen) : device_(screen.device())
 
 Interface::~Interface()
 {
-    device_->handle().waitIdle();
+    device_->wait_idle();
     ImGui_ImplVulkan_Shutdown();
     ImGui::DestroyContext(context_);
 }

@@ -136,17 +136,17 @@ void Panel::draw(Session& session, View& view)
 void Panel::draw_state(Session& session, View& view)
 {
     const Simulation& simulation = session.simulation();
-    const Report& report = simulation.report();
-    ImGui::Text("%s  %.2f s  %s", simulation.scene().name.c_str(), simulation.time(),
+    const Report& report = session.report();
+    ImGui::Text("%s  %.2f s  %s", simulation.scene().name.c_str(), session.time(),
                 session.paused ? "paused" : "");
     ImGui::Text("%llu nodes, %s", static_cast<unsigned long long>(simulation.node_count()),
                 name_of(simulation.backend()));
     ImGui::Text("%.2f x real time, %u steps of %.3g ms", session.real_time_factor(),
                 simulation.steps_per_frame(), 1000 * simulation.step_length());
     if (session.is_behind()) ImGui::TextColored(warning_colour, "slower than real time");
-    ImGui::Text("frame %.1f ms: steps %.2f, driver %.2f,", view.cost.whole, view.cost.simulation,
-                view.cost.driver);
-    ImGui::Text("viewer %.2f ms", view.cost.own);
+    const FrameCost cost = view.cost.median();
+    ImGui::Text("frame %.1f ms: steps %.2f, driver %.2f,", cost.whole, cost.simulation, cost.driver);
+    ImGui::Text("viewer %.2f ms", cost.own);
     if (view.recording) ImGui::TextColored(warning_colour, "recording");
     ImGui::PushTextWrapPos(320);
     const auto offer_reset = [&](const char* name) {
@@ -171,10 +171,7 @@ void Panel::draw_state(Session& session, View& view)
     ImGui::PopTextWrapPos();
     if (ImGui::Button(session.paused ? "Run" : "Pause")) session.paused = !session.paused;
     ImGui::SameLine();
-    if (ImGui::Button("Step")) {
-        session.paused = true;
-        session.step_once();
-    }
+    if (ImGui::Button("Step")) session.step_once();
     ImGui::SameLine();
     if (ImGui::Button("Reset")) view.wants_reset = true;
     ImGui::SameLine();
@@ -261,7 +258,7 @@ void Panel::draw_plots(const Session& session)
     plot("mean stretch", h.mean_stretch, "%.3g %%");
     if (session.simulation().body_count() > 0) plot("volume", h.volume, "%.6f V0");
     plot("energy", h.energy, "%.4g J");
-    if (session.simulation().report().solver.used()) {
+    if (session.report().solver.used()) {
         plot("active", h.active, "%.0f constraints");
         plot("iterations", h.iterations, "%.0f");
         plot("residual", h.residual, "%.2e");

@@ -1,6 +1,7 @@
 // The panel of a viewer: what can be read and changed.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "render/overlay.hpp"
@@ -8,13 +9,43 @@
 
 namespace pliant::tool {
 
-/// Milliseconds of a frame of the display, means over the last ones.
+/// Milliseconds of a frame of the display.
 struct FrameCost {
-    double whole = 0;        ///< from one frame to the next
-    double simulation = 0;   ///< of it, in steps
-    double driver = 0;       ///< of it, waiting for or handing over to the driver and the screen
-    double own = 0;          ///< of it, what is left: the viewer itself
-    double allocations = 0;  ///< by it, when they are counted
+    double whole = 0;       ///< from one frame to the next
+    double simulation = 0;  ///< in steps, on their own thread
+    double driver = 0;      ///< waiting for or handing over to the driver and the screen
+    double own = 0;         ///< the viewer itself, see docs/viewer.md
+};
+
+/// Medians over the last frames.
+class FrameCosts {
+public:
+    static constexpr std::size_t length = 61;
+
+    void add(const FrameCost& cost)
+    {
+        costs_[next_] = cost;
+        next_ = (next_ + 1) % length;
+        count_ = std::min(count_ + 1, length);
+    }
+    FrameCost median() const
+    {
+        return {median_of(&FrameCost::whole), median_of(&FrameCost::simulation),
+                median_of(&FrameCost::driver), median_of(&FrameCost::own)};
+    }
+
+private:
+    double median_of(double FrameCost::*part) const
+    {
+        std::array<double, length> values{};
+        for (std::size_t k = 0; k < count_; ++k) values[k] = costs_[k].*part;
+        const auto middle = values.begin() + static_cast<long>(count_ / 2);
+        std::nth_element(values.begin(), middle, values.begin() + static_cast<long>(count_));
+        return count_ > 0 ? *middle : 0;
+    }
+
+    std::array<FrameCost, length> costs_{};
+    std::size_t next_ = 0, count_ = 0;
 };
 
 /// What of a viewer can be seen and changed, beside its session.
@@ -22,7 +53,7 @@ struct View {
     OverlaySet overlays;
     bool panel = true, help = false;
     bool recording = false;
-    FrameCost cost;
+    FrameCosts cost;
     bool wants_reset = false;
     std::string wants_scene = {};  ///< to be opened; empty: none
 };

@@ -29,7 +29,7 @@ public:
     {
         HeadlessScreen::resize(size.width, size.height);
     }
-    ~HeadlessScreen() override { device_->handle().waitIdle(); }
+    ~HeadlessScreen() override { device_->wait_idle(); }
 
     vk::RenderPass pass() const override { return target_->target().pass; }
     vk::SampleCountFlagBits samples() const override { return target_->target().samples; }
@@ -37,7 +37,7 @@ public:
     void poll(std::vector<Event>&) override {}
     bool read(Image& into) override
     {
-        device_->handle().waitIdle();
+        device_->wait_idle();
         target_->read(into);
         return true;
     }
@@ -45,7 +45,7 @@ public:
     {
         size_ = vk::Extent2D{width, height};
         if (width == 0 || height == 0) return;
-        device_->handle().waitIdle();
+        device_->wait_idle();
         // The first target stays: its pass is what pipelines were made for.
         auto next = std::make_unique<vulkan::OffscreenTarget>(*device_, size_);
         if (!first_)
@@ -108,7 +108,7 @@ void Screen::finish(const FramePlace& place, bool kept)
     if (drawn_semaphore)
         submit.setWaitSemaphores(free).setWaitDstStageMask(where).setSignalSemaphores(drawn_semaphore);
     device_->handle().resetFences(*slot.done);
-    device_->queue().submit(submit, *slot.done);
+    device_->submit(submit, *slot.done);
     present();
     next_ = (next_ + 1) % slots;
 }

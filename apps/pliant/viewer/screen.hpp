@@ -16,7 +16,7 @@ struct GLFWwindow;
 
 namespace pliant::tool {
 
-/// A picture that is being made. Two may be on their way.
+/// A picture that is being made. As many as there are slots may be on their way.
 struct FramePlace {
     unsigned slot = 0;
     const vk::raii::CommandBuffer* commands = nullptr;  ///< begun
@@ -25,7 +25,7 @@ struct FramePlace {
 
 class Screen {
 public:
-    static constexpr unsigned slots = 2;
+    static constexpr unsigned slots = 3;
 
     virtual ~Screen() = default;
     const std::shared_ptr<vulkan::Device>& device() const { return device_; }
@@ -44,6 +44,8 @@ public:
 
     virtual void resize(std::uint32_t width, std::uint32_t height) = 0;
     virtual void set_title(const std::string&) {}
+    /// The next picture finds the surface of its window lost; nothing without a window.
+    virtual void lose_surface() {}
     /// Seconds that begin and finish spent in the driver since this was asked last.
     double take_driver_seconds();
 

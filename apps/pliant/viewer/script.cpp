@@ -104,6 +104,8 @@ private:
             const auto [x, y] = pair(key, value);
             if (!(x >= 0 && y >= 0 && x <= 16384 && y <= 16384)) refuse(".resize must be 0 to 16384 pixels");
             add({.kind = Kind::resize, .x = x, .y = y});
+        } else if (key == "lose_surface") {
+            add({.kind = Kind::lose_surface});
         } else {
             const std::pair<const char*, Kind> texts[] = {{"drop", Kind::drop},
                                                           {"set", Kind::set},
@@ -115,7 +117,7 @@ private:
             refuse(
                 " has '" + key +
                 "', which is none of at, key, key_down, key_up, press, release, move, move_to_node, scroll, "
-                "resize, drop, set, scene, method, screenshot");
+                "resize, lose_surface, drop, set, scene, method, screenshot");
         }
     }
 

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "render/stage.hpp"
 
@@ -60,7 +61,7 @@ Scene scene_of_mesh(const std::string& file)
 }
 
 Session::Session(const SimulationOptions& options, std::shared_ptr<vulkan::Device> device)
-    : options_(options), device_(std::move(device))
+    : options_(options), device_(device), stepper_(std::move(device))
 {
 }
 
@@ -84,15 +85,34 @@ void Session::start(Scene scene, const State* state)
     auto next = std::make_unique<Simulation>(scene, options);
     if (state) next->set_state(*state);
     if (before_change) before_change();
+    stepper_.detach();
     simulation_ = std::move(next);
     scene_ = std::move(scene);
     ++simulation_number_;
     changed_ = stepped_ = false;
-    waiting_ = 0;
+    if (!state) waiting_ = 0;
     times_before_.clear();
     pass_costs_.clear();
-    frames_timed_ = 0;
     if (held_ && state) simulation_->grab(held_->cloth, held_->node, hand_, hand_stiffness, hand_damping);
+    // Those of a sheet are made when first asked for: now, while nothing steps.
+    for (std::size_t c = 0; c < scene_.cloth_count(); ++c) static_cast<void>(simulation_->triangles(c));
+    stepper_.attach(*simulation_, overlays);
+    hold();
+}
+
+void Session::when_idle(std::function<void()> edit)
+{
+    if (edits_.empty() && stepper_.is_idle()) return edit();
+    edits_.push_back(std::move(edit));  // behind those that wait: order counts
+    stepper_.interrupt();
+}
+
+Stepper::Seen Session::hold()
+{
+    const Stepper::Seen seen = stepper_.hold();
+    report_ = &seen.last.source.report();
+    time_ = seen.last.source.time();
+    return seen;
 }
 
 void Session::apply_changes()
@@ -144,51 +164,77 @@ void Session::reset()
     }
 }
 
-void Session::step()
-{
-    if (before_step) before_step();
-    const auto start = Clock::now();
-    simulation_->advance(1 / simulation_->scene().time.frame_rate);
-    record(seconds_since(start));
-    stepped_ = true;
-}
-
 void Session::step_once()
 {
-    apply_changes();
-    step();
-    waiting_ = 0;
-    stepped_ = false;  // the display shows this state, and none between
+    paused = true;
+    ++single_steps_;
 }
 
 void Session::advance(double seconds, double patience)
 {
-    apply_changes();
-    step_seconds_ = 0;
-    if (paused) {
-        behind_ = false;
-        return;
+    step_seconds_ = waited_seconds_ = state_seconds_ = 0;
+    collect();
+    if (!paused) {
+        waiting_ += speed * seconds;
+        measured_ += seconds;
     }
-    const auto start = Clock::now();
-    const double frame = 1 / simulation_->scene().time.frame_rate;
-    constexpr double rounding = 1e-9;
-    waiting_ += speed * seconds;
-    unsigned steps = 0;
-    while (waiting_ >= frame - rounding && steps < most_steps && seconds_since(start) < patience) {
-        step();
-        waiting_ = std::max(0.0, waiting_ - frame);
-        ++steps;
+    if (stepper_.is_idle()) {
+        for (std::size_t k = 0; k < edits_.size(); ++k) {  // there may be more of them by then
+            const auto edit = std::move(edits_[k]);
+            edit();
+        }
+        edits_.clear();
+        apply_changes();
+        if (std::exchange(hand_moved_, false)) move_hand(hand_);
+        if (hold().last.overlays != overlays) stepper_.look_again(overlays);
+        begin_steps();
+    } else if (paused || changed_ || hand_moved_) {
+        stepper_.interrupt();
     }
-    step_seconds_ = seconds_since(start);
-    // What could not be done in time is dropped: slower than real time, but with a window that answers.
-    behind_ = waiting_ >= frame - rounding;
-    if (behind_) waiting_ = 0;
-    simulated_ += steps * frame;
-    measured_ += seconds;
+    if (patience > 0) {  // also where it is idle: then what it has made is not collected yet
+        const auto start = Clock::now();
+        stepper_.wait(patience);
+        waited_seconds_ = seconds_since(start);
+        collect();
+    }
     if (measured_ >= 0.5) {
         real_time_factor_ = simulated_ / measured_;
         simulated_ = measured_ = 0;
     }
+}
+
+void Session::begin_steps()
+{
+    if (paused) {
+        behind_ = false;
+        if (single_steps_ > 0) stepper_.start(single_steps_, overlays);
+        return;
+    }
+    const double frame = 1 / simulation_->scene().time.frame_rate;
+    constexpr double rounding = 1e-9;
+    const double due = std::floor((waiting_ + rounding) / frame);
+    // What cannot be done in time is dropped: slower than real time, but not later and later.
+    behind_ = due > most_steps;
+    if (behind_) waiting_ = most_steps * frame;
+    if (due >= 1) stepper_.start(behind_ ? most_steps : static_cast<unsigned>(due), overlays);
+}
+
+void Session::collect()
+{
+    const double frame = 1 / simulation_->scene().time.frame_rate;
+    const unsigned made = stepper_.take(numbers_);
+    for (unsigned k = 0; k < made; ++k) record(numbers_[k]);
+    if (made > 0) {
+        const unsigned single = std::min(single_steps_, made);
+        single_steps_ -= single;
+        waiting_ = single > 0 ? 0 : std::max(0.0, waiting_ - made * frame);
+        stepped_ = single == 0;  // the display shows the state of a single step, and none between
+        simulated_ += (made - single) * frame;
+    }
+    record_passes();
+    state_seconds_ += stepper_.take_seconds_of_states();
+    if (std::string failure = stepper_.take_failure(); !failure.empty()) notice = std::move(failure);
+    hold();
 }
 
 float Session::blend() const
@@ -197,22 +243,24 @@ float Session::blend() const
     return static_cast<float>(std::min(1.0, waiting_ * simulation_->scene().time.frame_rate));
 }
 
-void Session::record(double wall_seconds)
+void Session::record(const StepNumbers& numbers)
 {
-    const Report& report = simulation_->report();
-    const FrameMeasures& m = report.measures;
+    const FrameMeasures& m = numbers.measures;
+    step_seconds_ += 1e-3 * numbers.milliseconds;
     histories_.max_stretch.add(100 * m.max_stretch);
     histories_.mean_stretch.add(100 * m.mean_stretch);
-    if (!report.bodies.empty()) histories_.volume.add(report.bodies.front().ratio);
+    if (simulation_->body_count() > 0) histories_.volume.add(numbers.volume);
     histories_.energy.add(m.kinetic_energy + m.elastic_energy + m.potential_energy);
-    histories_.active.add(static_cast<double>(report.solver.active_last));
-    histories_.iterations.add(report.solver.iterations_last);
-    histories_.residual.add(report.solver.residual_last);
-    histories_.frame_time.add(1000 * wall_seconds);
+    histories_.active.add(numbers.active);
+    histories_.iterations.add(numbers.iterations);
+    histories_.residual.add(numbers.residual);
+    histories_.frame_time.add(numbers.milliseconds);
+}
 
+void Session::record_passes()
+{
+    if (!stepper_.take_pass_times(times_)) return;
     constexpr unsigned frames_of_a_mean = 20;
-    if (++frames_timed_ % frames_of_a_mean != 0) return;
-    simulation_->pass_times(times_);
     pass_costs_.resize(times_.size());
     for (std::size_t k = 0; k < times_.size(); ++k) {
         const bool known = k < times_before_.size() && times_before_[k].name == times_[k].name;
@@ -220,7 +268,7 @@ void Session::record(double wall_seconds)
         pass_costs_[k].milliseconds =
             (times_[k].milliseconds - (known ? times_before_[k].milliseconds : 0)) / frames_of_a_mean;
     }
-    std::swap(times_, times_before_);
+    times_before_ = times_;
 }
 
 std::optional<NodeOf> Session::node_at(const OrbitCamera& camera, double x, double y, double width,
@@ -272,13 +320,19 @@ void Session::grab(NodeOf node, Vec3d target)
 
 void Session::move_hand(Vec3d target)
 {
-    if (held_) grab(*held_, target);
+    if (!held_) return;
+    if (stepper_.is_idle()) return grab(*held_, target);
+    hand_ = target;
+    hand_moved_ = true;
+    stepper_.interrupt();
 }
 
 void Session::release()
 {
-    held_.reset();
-    simulation_->release();
+    when_idle([this] {
+        held_.reset();
+        simulation_->release();
+    });
 }
 
 Vec3d Session::position_of(NodeOf node) { return to_double(simulation_->positions(node.cloth)[node.node]); }

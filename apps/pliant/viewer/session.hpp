@@ -1,4 +1,5 @@
-// A simulation that runs beside a clock, and what a person does to it. It knows no window.
+// A simulation that runs beside a clock, on a thread of its own, and what a person does to it. It knows no
+// window.
 #pragma once
 
 #include <array>
@@ -11,6 +12,7 @@
 #include "picture_source.hpp"
 #include "pliant/simulation.hpp"
 #include "viewer/orbit_camera.hpp"
+#include "viewer/stepper.hpp"
 
 namespace pliant::tool {
 
@@ -61,8 +63,18 @@ public:
     /// open stays open then.
     void open(const std::string& scene_or_mesh, const std::vector<std::string>& overrides = {});
 
+    /// What moves in it, time and report included, is its thread's unless `is_idle`; what does not, as
+    /// numbers of nodes, may be read at any time.
     Simulation& simulation() { return *simulation_; }
     const Simulation& simulation() const { return *simulation_; }
+    bool is_idle() const { return stepper_.is_idle(); }
+    /// Does it now, or when the step that runs has ended.
+    void when_idle(std::function<void()> edit);
+    /// The last two states, to be drawn; they stay until the next call.
+    Stepper::Seen hold();
+    /// Of the last state that was held.
+    const Report& report() const { return *report_; }
+    double time() const { return time_; }
     /// What was opened, for the scene picker.
     const std::string& opened() const { return opened_; }
     /// Counts scenes that were opened: cloths and triangles are others then.
@@ -71,8 +83,6 @@ public:
     std::uint64_t simulation_number() const { return simulation_number_; }
     /// Called before a simulation goes: what is drawn from its buffers must have been drawn.
     std::function<void()> before_change;
-    /// Called before a step: the state that is there is the one before.
-    std::function<void()> before_step;
 
     /// The scene as it is wanted; whoever changes it says so, and it counts from the next step on. Positions
     /// and velocities stay. What cannot be is told by `notice` and taken back.
@@ -87,22 +97,29 @@ public:
     void reset();
 
     bool paused = false;
+    OverlaySet overlays;                            ///< that states are looked at for
     unsigned most_steps = 4;                        ///< frames of the simulation in a frame of the display
     double speed = 1;                               ///< of the simulation's time against the clock's
     double hand_stiffness = 100, hand_damping = 2;  ///< N/m, N s/m
 
-    /// Lets `seconds` pass. `patience`: wall seconds after which the simulation is left behind.
+    /// Lets `seconds` pass: begins what steps are due when the last ones have ended, and waits for them up to
+    /// `patience`, in s. With 0 the display goes on while they run.
     void advance(double seconds, double patience);
+    /// One frame, then a pause.
     void step_once();
     /// Where the display is between the last two states: 0 to 1.
     float blend() const;
     bool is_behind() const { return behind_; }
     double real_time_factor() const { return real_time_factor_; }
-    /// Wall seconds spent in steps by the last call of `advance`.
+    /// Seconds of the last `advance`: that steps took which ended in it, that it waited for them, and that
+    /// their thread took to leave what is drawn.
     double step_seconds() const { return step_seconds_; }
+    double waited_seconds() const { return waited_seconds_; }
+    double state_seconds() const { return state_seconds_; }
 
     /// The node that is seen nearest to a pixel, in front where several are; nothing within 40 pixels,
     /// nothing.
+    /// When it is idle, as all below that names a node.
     std::optional<NodeOf> node_at(const OrbitCamera& camera, double x, double y, double width, double height);
     void grab(NodeOf node, Vec3d target);
     void move_hand(Vec3d target);
@@ -121,8 +138,10 @@ public:
 
 private:
     void start(Scene scene, const State* state);
-    void step();
-    void record(double wall_seconds);
+    void collect();
+    void begin_steps();
+    void record(const StepNumbers& numbers);
+    void record_passes();
 
     SimulationOptions options_;
     std::shared_ptr<vulkan::Device> device_;
@@ -134,8 +153,9 @@ private:
     bool changed_ = false;
 
     double waiting_ = 0;  ///< s that the display is ahead of the last state
-    bool stepped_ = false, behind_ = false;
-    double real_time_factor_ = 1, step_seconds_ = 0;
+    bool stepped_ = false, behind_ = false, hand_moved_ = false;
+    unsigned single_steps_ = 0;
+    double real_time_factor_ = 1, step_seconds_ = 0, waited_seconds_ = 0, state_seconds_ = 0;
     double simulated_ = 0, measured_ = 0;  ///< s, since the factor was taken last
 
     std::optional<NodeOf> held_;
@@ -143,7 +163,11 @@ private:
     Histories histories_;
     std::vector<PassTime> times_, times_before_;
     std::vector<PassCost> pass_costs_;
-    unsigned frames_timed_ = 0;
+    std::array<StepNumbers, Stepper::most_steps> numbers_;
+    std::vector<std::function<void()>> edits_;  ///< that wait for the end of a step
+    const Report* report_ = nullptr;
+    double time_ = 0;
+    Stepper stepper_;  ///< the last, so that its thread ends first
 };
 
 /// A scene for a mesh: scaled to a metre, over a plane; a closed one is a soft body, an open one cloth.

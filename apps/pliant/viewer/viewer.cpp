@@ -21,27 +21,22 @@ double seconds_since(Clock::time_point start)
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// A mean that follows: of the last ten frames or so.
-void follow(double& mean, double value) { mean += 0.1 * (value - mean); }
-
 }  // namespace
 
 Viewer::Viewer(std::unique_ptr<Screen> screen, const SimulationOptions& simulation)
     : screen_(std::move(screen)),
       kit_(std::make_shared<vulkan::PictureKit>(screen_->device(), screen_->pass(), screen_->samples())),
       interface_(*screen_),
-      session_(simulation, screen_->device()),
-      keeping_(screen_->device()->make_commands())
+      session_(simulation, screen_->device())
 {
-    session_.before_change = [this] { screen_->device()->handle().waitIdle(); };
-    session_.before_step = [this] { keep_state(); };
+    session_.before_change = [this] { screen_->device()->wait_idle(); };
 }
 
 Viewer::~Viewer()
 {
     try {
         if (recorder_) recorder_->finish();
-        screen_->device()->handle().waitIdle();
+        screen_->device()->wait_idle();
     } catch (const std::exception& error) {
         std::fprintf(stderr, "warning: %s\n", error.what());
     }
@@ -58,11 +53,13 @@ void Viewer::open(const std::string& scene_or_mesh, const std::vector<std::strin
 
 void Viewer::try_open(const std::string& scene_or_mesh)
 {
-    try {
-        open(scene_or_mesh);
-    } catch (const Error& error) {
-        session_.notice = error.what();
-    }
+    session_.when_idle([this, scene_or_mesh] {
+        try {
+            open(scene_or_mesh);
+        } catch (const Error& error) {
+            session_.notice = error.what();
+        }
+    });
 }
 
 void Viewer::record(const std::string& file)
@@ -105,7 +102,7 @@ void Viewer::handle(const Event& event)
         case Kind::move: move_mouse(event.x, event.y); break;
         case Kind::move_to: {
             const NodeOf node{static_cast<std::size_t>(event.code), event.index};
-            if (node.cloth >= session_.scene().cloth_count() ||
+            if (!session_.is_idle() || node.cloth >= session_.scene().cloth_count() ||
                 node.node >= session_.simulation().node_count(node.cloth))
                 break;
             const auto [width, height] =
@@ -124,6 +121,7 @@ void Viewer::handle(const Event& event)
             screen_->resize(static_cast<std::uint32_t>(event.x), static_cast<std::uint32_t>(event.y));
             break;
         case Kind::close: done_ = true; break;
+        case Kind::lose_surface: screen_->lose_surface(); break;
         case Kind::set: session_.set(event.text); break;
         case Kind::method: try { session_.set_method(method_of(event.text));
             } catch (const Error& error) {
@@ -142,19 +140,12 @@ void Viewer::press_key(int key)
     switch (key) {
         case GLFW_KEY_9: view_.overlays = {}; break;
         case GLFW_KEY_SPACE: session_.paused = !session_.paused; break;
-        case GLFW_KEY_PERIOD:
-            session_.paused = true;
-            session_.step_once();
-            break;
+        case GLFW_KEY_PERIOD: session_.step_once(); break;
         case GLFW_KEY_R: view_.wants_reset = true; break;
         case GLFW_KEY_F: frame_everything(); break;
         case GLFW_KEY_H: view_.panel = !view_.panel; break;
         case GLFW_KEY_F1: view_.help = !view_.help; break;
-        case GLFW_KEY_P:
-            if (const auto node = session_.node_at(camera_, mouse_x_, mouse_y_, screen_->size().width,
-                                                   screen_->size().height))
-                session_.toggle_pin(*node);
-            break;
+        case GLFW_KEY_P: with_node_at_mouse([this](NodeOf node) { session_.toggle_pin(node); }); break;
         case GLFW_KEY_S: {
             char name[32];
             do std::snprintf(name, sizeof name, "pliant_%04u.png", ++files_);
@@ -186,9 +177,17 @@ void Viewer::press_button(int button, bool down)
     last_click_ = twice ? -1 : clock_;
     click_x_ = mouse_x_, click_y_ = mouse_y_;
     if (!twice) return;
-    if (const auto node =
-            session_.node_at(camera_, mouse_x_, mouse_y_, screen_->size().width, screen_->size().height))
-        camera_.look_at(session_.position_of(*node));
+    with_node_at_mouse([this](NodeOf node) { camera_.look_at(session_.position_of(node)); });
+}
+
+/// Between steps: the node that is seen where the mouse is now, if there is one.
+template <class Use>
+void Viewer::with_node_at_mouse(Use&& use)
+{
+    session_.when_idle([this, use, x = mouse_x_, y = mouse_y_] {
+        const vk::Extent2D size = screen_->size();
+        if (const auto node = session_.node_at(camera_, x, y, size.width, size.height)) use(*node);
+    });
 }
 
 void Viewer::move_mouse(double x, double y)
@@ -204,12 +203,11 @@ void Viewer::move_mouse(double x, double y)
 
 void Viewer::grab()
 {
-    const auto node =
-        session_.node_at(camera_, mouse_x_, mouse_y_, screen_->size().width, screen_->size().height);
-    if (!node) return;
-    hand_point_ = session_.position_of(*node);
-    hand_normal_ = normalized(camera_.camera().position - camera_.centre(), {0, 0, 1});
-    session_.grab(*node, hand_point_);
+    with_node_at_mouse([this](NodeOf node) {
+        hand_point_ = session_.position_of(node);
+        hand_normal_ = normalized(camera_.camera().position - camera_.centre(), {0, 0, 1});
+        session_.grab(node, hand_point_);
+    });
 }
 
 /// Where the mouse is in the plane that the hand moves in.
@@ -223,25 +221,11 @@ Vec3d Viewer::on_hand_plane() const
 
 void Viewer::frame_everything()
 {
-    const auto [centre, radius] = session_.bounds();
-    camera_.frame(centre, radius,
-                  static_cast<double>(screen_->size().width) / std::max(1u, screen_->size().height));
-}
-
-void Viewer::keep_state()
-{
-    Simulation& simulation = session_.simulation();
-    if (!drawing_ || drawn_simulation_ != session_.simulation_number()) return;
-    if (!PictureSource::is_direct(simulation)) return source_.keep_positions(simulation);
-    // Submitted before the step's own commands, for which the simulation waits: then these have run, too.
-    positions_.clear();
-    for (std::size_t c = 0; c < simulation.scene().cloth_count(); ++c)
-        positions_.push_back(simulation.device_state()->positions_on_device(c));
-    keeping_.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
-    drawing_->keep(keeping_, positions_);
-    keeping_.end();
-    const vk::CommandBuffer commands = *keeping_;
-    screen_->device()->queue().submit(vk::SubmitInfo({}, {}, commands));
+    session_.when_idle([this] {
+        const auto [centre, radius] = session_.bounds();
+        camera_.frame(centre, radius,
+                      static_cast<double>(screen_->size().width) / std::max(1u, screen_->size().height));
+    });
 }
 
 void Viewer::update_drawing()
@@ -252,21 +236,33 @@ void Viewer::update_drawing()
     if (other_scene || other_simulation) {
         // Also where only numbers of the scene have changed: buffers of another simulation may have the names
         // of those that were.
-        screen_->device()->handle().waitIdle();
+        screen_->device()->wait_idle();
         const auto topologies = topologies_of(simulation);
         drawing_ =
             std::make_unique<vulkan::SceneDrawing>(kit_, simulation.scene(), topologies, Screen::slots);
         drawn_scene_ = session_.scene_number();
         drawn_simulation_ = session_.simulation_number();
         springs_known_ = false;
-        source_.forget_positions();
-        source_.gather(simulation, view_.overlays);
     }
-    if (view_.overlays.has_lines() && !springs_known_) {
-        screen_->device()->handle().waitIdle();
+    if (view_.overlays.needs_springs() && !springs_known_) {
+        screen_->device()->wait_idle();
         for (std::size_t c = 0; c < simulation.scene().cloth_count(); ++c)
             drawing_->set_springs(c, drawn_springs(simulation, c));
         springs_known_ = true;
+    }
+}
+
+/// Names what is drawn of each cloth.
+void Viewer::show(const Stepper::Seen& seen)
+{
+    frames_.clear();
+    const Simulation& simulation = session_.simulation();
+    for (std::size_t c = 0; c < simulation.scene().cloth_count(); ++c) {
+        if (PictureSource::is_direct(session_.simulation()))
+            frames_.emplace_back(
+                DeviceCloth{*seen.last.copies[c], simulation.node_count(c), *seen.before.copies[c]});
+        else
+            frames_.emplace_back(HostCloth{seen.last.source.positions(c), seen.before.source.positions(c)});
     }
 }
 
@@ -277,18 +273,14 @@ void Viewer::draw(double seconds)
     panel_.draw(session_, view_);
     if (!place) return interface_.end(nullptr);
     update_drawing();
-    Simulation& simulation = session_.simulation();
-    // Nodes on their way to infinity cannot be seen, and software rasterisers take minutes over their
-    // triangles.
-    constexpr double fastest_drawn = 1e6;  // m/s
-    const bool drawn = simulation.report().finite && simulation.report().measures.max_speed < fastest_drawn;
-    if (drawn) source_.gather(simulation, view_.overlays);
+    const Stepper::Seen seen = session_.hold();
+    show(seen);
     PictureState state{.camera = camera_.camera(),
-                       .time = simulation.time(),
+                       .time = seen.last.source.time(),
                        .overlays = view_.overlays,
-                       .scale = &source_.scale(),
-                       .frames = source_.frames(),
-                       .extras = source_.extras(),
+                       .scale = &seen.last.source.scale(),
+                       .frames = frames_,
+                       .extras = seen.last.source.extras(),
                        .blend = session_.blend()};
     drawing_->prepare(state, place->target.size, place->slot);
     drawing_->begin(*place->commands, place->target, place->slot);
@@ -324,15 +316,16 @@ void Viewer::frame(double seconds, double patience)
     screen_->poll(events_);
     for (const Event& event : events_) handle(event);
     if (!view_.wants_scene.empty()) try_open(std::exchange(view_.wants_scene, {}));
-    if (std::exchange(view_.wants_reset, false)) session_.reset();
+    if (std::exchange(view_.wants_reset, false)) session_.when_idle([this] { session_.reset(); });
+    session_.overlays = view_.overlays;
     session_.advance(seconds, patience);
     draw(seconds);
 
     const double driver = screen_->take_driver_seconds(), whole = seconds_since(start);
-    follow(view_.cost.whole, 1000 * seconds);
-    follow(view_.cost.simulation, 1000 * session_.step_seconds());
-    follow(view_.cost.driver, 1000 * driver);
-    follow(view_.cost.own, 1000 * (whole - driver - session_.step_seconds()));
+    view_.cost.add({.whole = 1000 * seconds,
+                    .simulation = 1000 * session_.step_seconds(),
+                    .driver = 1000 * driver,
+                    .own = 1000 * (whole - driver - session_.waited_seconds() + session_.state_seconds())});
 }
 
 }  // namespace pliant::tool

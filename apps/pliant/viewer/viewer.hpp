@@ -42,13 +42,15 @@ private:
     void press_button(int button, bool down);
     void move_mouse(double x, double y);
     void grab();
+    template <class Use>
+    void with_node_at_mouse(Use&& use);
     Vec3d on_hand_plane() const;
     void try_open(const std::string& scene_or_mesh);
     void frame_everything();
     void toggle_recording();
     void update_drawing();
+    void show(const Stepper::Seen& seen);
     void draw(double seconds);
-    void keep_state();
     void take_picture();
 
     std::unique_ptr<Screen> screen_;
@@ -58,10 +60,8 @@ private:
     View view_;
     Panel panel_;
     OrbitCamera camera_;
-    PictureSource source_;
     std::unique_ptr<vulkan::SceneDrawing> drawing_;
-    vk::raii::CommandBuffer keeping_{nullptr};
-    std::vector<vk::Buffer> positions_;
+    std::vector<ClothFrame> frames_;
     std::uint64_t drawn_scene_ = 0, drawn_simulation_ = 0;  ///< that `drawing_` was made for
     bool springs_known_ = false;
 

@@ -75,7 +75,7 @@ public:
     }
     ~WindowScreen() override
     {
-        device_->handle().waitIdle();
+        device_->wait_idle();
         target_->clear();
     }
 
@@ -97,7 +97,7 @@ public:
     bool read(Image& into) override
     {
         if (!copied_) return false;
-        device_->handle().waitIdle();
+        device_->wait_idle();
         target_->read(into);
         return true;
     }
@@ -111,6 +111,7 @@ public:
         }
         stale_ = true;
     }
+    void lose_surface() override { lost_ = true; }
     void set_title(const std::string& title) override { glfwSetWindowTitle(window_.get(), title.c_str()); }
 
 private:
@@ -129,7 +130,7 @@ private:
     {
         int width = 0, height = 0;
         glfwGetFramebufferSize(window_.get(), &width, &height);
-        device_->handle().waitIdle();
+        device_->wait_idle();
         target_->resize(*device_, {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)});
         stale_ = false;
     }
@@ -137,7 +138,7 @@ private:
     /// The surface is gone, as when a compositor restarts: the window has another one, of the same format.
     void replace_surface()
     {
-        device_->handle().waitIdle();
+        device_->wait_idle();
         target_->replace_surface([&] {
             surface_ = nullptr;
             VkSurfaceKHR surface = VK_NULL_HANDLE;
@@ -163,6 +164,7 @@ private:
                     stale_ = true;
                     return std::nullopt;
                 }
+                if (std::exchange(lost_, false)) throw vk::SurfaceLostKHRError("as an event said");
                 if (stale_ || !target_->has_images()) rebuild();
                 if (!target_->has_images()) return std::nullopt;
                 if (const auto image = target_->acquire(free)) {
@@ -231,7 +233,7 @@ private:
     std::optional<vulkan::WindowTarget> target_;
     std::vector<Event> events_;
     std::uint32_t image_ = 0;
-    bool stale_ = false, copied_ = false, minimised_ = false;
+    bool stale_ = false, copied_ = false, minimised_ = false, lost_ = false;
 };
 
 }  // namespace

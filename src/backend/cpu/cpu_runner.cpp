@@ -225,6 +225,12 @@ public:
     {
         return double{cloths_[cloth].solver.scalars()[number]};
     }
+    void solver_numbers(std::uint32_t cloth, std::size_t first, std::size_t count,
+                        std::vector<float>& values) override
+    {
+        const auto of = cloths_[cloth].solver.arena().subspan(first, count);
+        values.assign(of.begin(), of.end());
+    }
     MeasureTotals measures(std::uint32_t cloth) override { return cloths_[cloth].plain.totals(); }
     const PassClock& clock() const override { return clock_; }
     std::string device_name() const override

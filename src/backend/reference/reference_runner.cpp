@@ -76,6 +76,13 @@ public:
     {
         return solvers_[cloth].scalars()[number];
     }
+    void solver_numbers(std::uint32_t cloth, std::size_t first, std::size_t count,
+                        std::vector<float>& values) override
+    {
+        values.clear();
+        for (const double number : solvers_[cloth].arena().subspan(first, count))
+            values.push_back(static_cast<float>(number));
+    }
     MeasureTotals measures(std::uint32_t cloth) override { return cloths_[cloth].totals(); }
     const PassClock& clock() const override { return clock_; }
     std::string device_name() const override { return "CPU, one thread, double"; }

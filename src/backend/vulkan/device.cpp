@@ -196,8 +196,9 @@ void Device::open(const DeviceOptions& options)
     }
     device_ = {physical_, vk::DeviceCreateInfo({}, queue, {}, extensions, &features)};
     queue_ = device_.getQueue(queue_family_, 0);
-    pool_ = {device_, {vk::CommandPoolCreateFlagBits::eResetCommandBuffer, queue_family_}};
-    fence_ = {device_, vk::FenceCreateInfo{}};
+    lane_ = CommandLane(*this);
+    staging_ = CommandLane(*this);
+    staging_commands_ = staging_.make_commands();
     pipelines_ = {physical_, device_, options.pipeline_folder};
 }
 
@@ -256,19 +257,55 @@ vk::raii::ShaderModule Device::make_shader(std::span<const std::uint32_t> code) 
     return {device_, vk::ShaderModuleCreateInfo({}, code.size_bytes(), code.data())};
 }
 
-vk::raii::CommandBuffer Device::make_commands() const
+CommandLane::CommandLane(const Device& device)
+    : device_(&device),
+      pool_(device.handle(), vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eResetCommandBuffer,
+                                                       device.queue_family())),
+      fence_(device.handle(), vk::FenceCreateInfo{})
 {
-    return std::move(
-        vk::raii::CommandBuffers(device_, {*pool_, vk::CommandBufferLevel::ePrimary, 1}).front());
 }
 
-void Device::run(const vk::raii::CommandBuffer& commands) const
+vk::raii::CommandBuffer CommandLane::make_commands() const
 {
-    device_.resetFences(*fence_);
+    return std::move(
+        vk::raii::CommandBuffers(device_->handle(), {*pool_, vk::CommandBufferLevel::ePrimary, 1}).front());
+}
+
+void CommandLane::run(const vk::raii::CommandBuffer& commands) const
+{
+    device_->handle().resetFences(*fence_);
     const vk::CommandBuffer handle = *commands;
-    queue_.submit(vk::SubmitInfo({}, {}, handle), *fence_);
-    if (device_.waitForFences(*fence_, VK_TRUE, UINT64_MAX) != vk::Result::eSuccess)
+    device_->submit(vk::SubmitInfo({}, {}, handle), *fence_);
+    if (device_->handle().waitForFences(*fence_, VK_TRUE, UINT64_MAX) != vk::Result::eSuccess)
         throw vk::SystemError(vk::make_error_code(vk::Result::eTimeout), "waiting for the device");
+}
+
+void Device::submit(const vk::SubmitInfo& submission, vk::Fence done) const
+{
+    const std::scoped_lock turn(queue_turn_);
+    queue_.submit(submission, done);
+}
+
+vk::Result Device::present(const vk::PresentInfoKHR& presentation) const
+{
+    const std::scoped_lock turn(queue_turn_);
+    return queue_.presentKHR(presentation);
+}
+
+void Device::wait_idle() const
+{
+    const std::scoped_lock turn(queue_turn_);
+    device_.waitIdle();
+}
+
+const Buffer& Device::staging_for(std::size_t bytes, Memory memory, Buffer& large) const
+{
+    constexpr std::size_t most_kept = 16u << 20;
+    Buffer& kept = memory == Memory::upload ? upload_staging_ : readback_staging_;
+    if (kept.size >= bytes) return kept;
+    Buffer& made = bytes <= most_kept ? kept : large;
+    made = make_buffer(bytes, {}, memory, "staging");
+    return made;
 }
 
 void Device::write(const Buffer& target, const void* data, std::size_t bytes, std::size_t offset) const
@@ -278,37 +315,39 @@ void Device::write(const Buffer& target, const void* data, std::size_t bytes, st
         std::memcpy(static_cast<char*>(target.mapped) + offset, data, bytes);
         return;
     }
-    const Buffer staging =
-        make_buffer(bytes, vk::BufferUsageFlagBits::eTransferSrc, Memory::upload, "staging");
+    const std::scoped_lock turn(staging_turn_);
+    Buffer large;
+    const Buffer& staging = staging_for(bytes, Memory::upload, large);
     std::memcpy(staging.mapped, data, bytes);
-    const auto commands = make_commands();
+    const vk::raii::CommandBuffer& commands = staging_commands_;
     commands.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
     commands.copyBuffer(*staging, *target, vk::BufferCopy(0, offset, bytes));
     barrier(commands, vk::PipelineStageFlagBits::eTransfer, vk::AccessFlagBits::eTransferWrite,
             vk::PipelineStageFlagBits::eAllCommands,
             vk::AccessFlagBits::eMemoryRead | vk::AccessFlagBits::eMemoryWrite);
     commands.end();
-    run(commands);
+    staging_.run(commands);
 }
 
-void Device::read(const Buffer& source, void* data, std::size_t bytes) const
+void Device::read(const Buffer& source, void* data, std::size_t bytes, std::size_t offset) const
 {
     if (bytes == 0) return;
     if (source.mapped) {
-        std::memcpy(data, source.mapped, bytes);
+        std::memcpy(data, static_cast<const char*>(source.mapped) + offset, bytes);
         return;
     }
-    const Buffer staging =
-        make_buffer(bytes, vk::BufferUsageFlagBits::eTransferDst, Memory::readback, "staging");
-    const auto commands = make_commands();
+    const std::scoped_lock turn(staging_turn_);
+    Buffer large;
+    const Buffer& staging = staging_for(bytes, Memory::readback, large);
+    const vk::raii::CommandBuffer& commands = staging_commands_;
     commands.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
     barrier(commands, vk::PipelineStageFlagBits::eAllCommands, vk::AccessFlagBits::eMemoryWrite,
             vk::PipelineStageFlagBits::eTransfer, vk::AccessFlagBits::eTransferRead);
-    commands.copyBuffer(*source, *staging, vk::BufferCopy(0, 0, bytes));
+    commands.copyBuffer(*source, *staging, vk::BufferCopy(offset, 0, bytes));
     barrier(commands, vk::PipelineStageFlagBits::eTransfer, vk::AccessFlagBits::eTransferWrite,
             vk::PipelineStageFlagBits::eHost, vk::AccessFlagBits::eHostRead);
     commands.end();
-    run(commands);
+    staging_.run(commands);
     std::memcpy(data, staging.mapped, bytes);
 }
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <string>
 #include <vector>
@@ -59,6 +60,27 @@ struct Buffer {
     vk::DescriptorBufferInfo descriptor() const { return {*handle, 0, VK_WHOLE_SIZE}; }
 };
 
+class Device;
+
+/// Commands of one thread at a time, as Vulkan asks of a pool and its buffers, and a fence to wait for them.
+class CommandLane {
+public:
+    CommandLane() = default;
+    explicit CommandLane(const Device& device);
+
+    /// A primary command buffer that can be submitted again and again.
+    vk::raii::CommandBuffer make_commands() const;
+    /// Submits and waits; throws vk::SystemError when the device is lost.
+    void run(const vk::raii::CommandBuffer& commands) const;
+
+private:
+    const Device* device_ = nullptr;
+    vk::raii::CommandPool pool_{nullptr};
+    vk::raii::Fence fence_{nullptr};
+};
+
+/// Threads may share it: what is submitted takes turns, and writing and reading wait for each other. Commands
+/// of `make_commands` and `run` belong to the thread that draws; others have a lane of their own.
 class Device {
 public:
     /// Throws Error(device_failure) when there is no such device, naming what to install or choose.
@@ -93,18 +115,23 @@ public:
     PipelineStore& pipelines() const { return pipelines_; }
 
     /// A primary command buffer that can be submitted again and again.
-    vk::raii::CommandBuffer make_commands() const;
-    /// The queue of everything, for who submits without waiting.
+    vk::raii::CommandBuffer make_commands() const { return lane_.make_commands(); }
+    /// The queue of everything; use it by `submit` and `present`, which take turns.
     const vk::raii::Queue& queue() const { return queue_; }
+    void submit(const vk::SubmitInfo& submission, vk::Fence done = nullptr) const;
+    vk::Result present(const vk::PresentInfoKHR& presentation) const;
+    /// Until everything that was submitted has run.
+    void wait_idle() const;
     /// What someone wants to keep as long as the device lives, pipelines for one, under a name; it must not
     /// own the device.
     std::shared_ptr<void>& kept(const char* name) const { return kept_[name]; }
     /// Submits and waits; throws vk::SystemError when the device is lost.
-    void run(const vk::raii::CommandBuffer& commands) const;
+    void run(const vk::raii::CommandBuffer& commands) const { lane_.run(commands); }
 
-    /// Copies through a staging buffer and waits. For set-up and read-back, not for the frame loop.
+    /// Copies through a staging buffer and waits. It keeps one of up to 16 MiB each way, so that reading in
+    /// every frame allocates nothing.
     void write(const Buffer& target, const void* data, std::size_t bytes, std::size_t offset = 0) const;
-    void read(const Buffer& source, void* data, std::size_t bytes) const;
+    void read(const Buffer& source, void* data, std::size_t bytes, std::size_t offset = 0) const;
 
     /// Messages of the validation layer so far (warnings and errors).
     std::uint64_t validation_messages() const { return validation_messages_; }
@@ -113,6 +140,8 @@ public:
 
 private:
     void open(const DeviceOptions& options);
+    /// A staging buffer that is kept, or `large` where that would keep too much; under `staging_turn_`.
+    const Buffer& staging_for(std::size_t bytes, Memory memory, Buffer& large) const;
 
     mutable std::atomic<std::uint64_t> validation_messages_{0};
     mutable std::atomic<std::uint64_t> memory_made_{0};
@@ -127,8 +156,10 @@ private:
     std::uint32_t timestamp_bits_ = 0;
     vk::raii::Device device_{nullptr};
     vk::raii::Queue queue_{nullptr};
-    vk::raii::CommandPool pool_{nullptr};
-    vk::raii::Fence fence_{nullptr};
+    CommandLane lane_, staging_;
+    vk::raii::CommandBuffer staging_commands_{nullptr};
+    mutable Buffer upload_staging_, readback_staging_;
+    mutable std::mutex queue_turn_, staging_turn_;
     vk::PhysicalDeviceMemoryProperties memory_properties_;
     mutable PipelineStore pipelines_;
     mutable std::map<std::string, std::shared_ptr<void>> kept_;

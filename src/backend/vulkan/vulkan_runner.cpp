@@ -105,6 +105,7 @@ public:
     Runner(std::span<const ClothModel> models, const SimulationOptions& options)
         : device_(device_for(options)),
           pipelines_(PassPipelines::of(*device_, options.fast_math)),
+          lane_(*device_),
           fast_math_(options.fast_math)
     {
         pipelines_->make(*device_, models);
@@ -180,7 +181,8 @@ public:
             return;
         }
         if (const BodyBuffers::Rows rows = buffers.body().rows_of(resource); rows.count > 0) {
-            std::vector<Float4> all(rows.first + rows.count);
+            std::vector<Float4>& all = padded_;
+            all.resize(rows.first + rows.count);
             device_->read(buffers.buffer(resource, parity), all.data(), all.size() * sizeof(Float4));
             values.clear();
             for (std::size_t k = rows.first; k < all.size(); ++k) {
@@ -190,12 +192,12 @@ public:
             }
             return;
         }
-        std::vector<Float4> padded(count);
-        device_->read(buffers.buffer(resource, parity), padded.data(), count * sizeof(Float4));
+        padded_.resize(count);
+        device_->read(buffers.buffer(resource, parity), padded_.data(), count * sizeof(Float4));
         const std::size_t numbers = resource == Resource::blocked ? 4 : 3;
         values.resize(numbers * count);
         for (std::size_t i = 0; i < count; ++i)
-            std::memcpy(&values[numbers * i], &padded[i], numbers * sizeof(float));
+            std::memcpy(&values[numbers * i], &padded_[i], numbers * sizeof(float));
     }
 
     void write(std::uint32_t cloth, std::span<const Vec3> positions,
@@ -215,6 +217,13 @@ public:
     double solver_scalar(std::uint32_t cloth, std::size_t number) override
     {
         return cloths_[cloth].solver().scalar(number);
+    }
+    void solver_numbers(std::uint32_t cloth, std::size_t first, std::size_t count,
+                        std::vector<float>& values) override
+    {
+        values.resize(count);
+        device_->read(cloths_[cloth].solver().arena(), values.data(), count * sizeof(float),
+                      first * sizeof(float));
     }
     MeasureTotals measures(std::uint32_t cloth) override { return cloths_[cloth].totals(); }
     const PassClock& clock() const override { return clock_; }
@@ -352,7 +361,7 @@ private:
                 s = recording.segment.next;
                 continue;
             }
-            device_->run(recording.commands);
+            lane_.run(recording.commands);
             if (*recording.queries) take_times(recording);
             ++s;
         }
@@ -387,7 +396,7 @@ private:
                                  vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, query_count)};
         const bool timed = static_cast<bool>(*recording.queries);
 
-        recording.commands = device_->make_commands();
+        recording.commands = lane_.make_commands();
         const vk::raii::CommandBuffer& commands = recording.commands;
         commands.begin({});
         if (timed) commands.resetQueryPool(*recording.queries, 0, query_count);
@@ -474,12 +483,14 @@ private:
 
     std::shared_ptr<Device> device_;
     std::shared_ptr<PassPipelines> pipelines_;
+    CommandLane lane_;  // its own: a simulation may step on another thread than the one that draws
     std::vector<ClothBuffers> cloths_;
     std::vector<Vec3d> origins_;          ///< different ones, of all cloths
     std::vector<std::size_t> origin_of_;  ///< by cloth, index into origins_
     Buffer colliders_;
     std::map<std::uint64_t, std::vector<Recording>> recordings_;
     std::vector<std::uint64_t> ticks_;
+    std::vector<Float4> padded_;  ///< read last
     PassClock clock_;
     std::uint32_t parity_ = 0;
     bool fast_math_ = false;

@@ -9,7 +9,7 @@ layout(location = 2) out vec3 pattern_and_value;
 
 void main()
 {
-    point = seen_position(gl_VertexIndex);
+    point = positions[gl_VertexIndex].xyz;
     normal = normals[gl_VertexIndex].xyz;
     pattern_and_value = vec3(pattern[gl_VertexIndex], values[gl_VertexIndex]);
     gl_Position = frame.clip_from_world * vec4(point, 1.0);

@@ -5,6 +5,6 @@
 
 void main()
 {
-    vec4 at = frame.shadow_from_world * vec4(seen_position(gl_VertexIndex), 1.0);
+    vec4 at = frame.shadow_from_world * vec4(positions[gl_VertexIndex].xyz, 1.0);
     gl_Position = vec4(at.xy * 2.0 - 1.0, at.z, 1.0);
 }

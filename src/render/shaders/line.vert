@@ -20,20 +20,15 @@ void main()
     vec3 at;
     bool visible = true;
     if (style.kind == 2u) {
-        at = seen_position(line) + normals[line].xyz * (float(end) * style.reach);
+        at = positions[line].xyz + normals[line].xyz * (float(end) * style.reach);
         hue = mix(vec3(0.9, 0.85, 0.2), vec3(0.9, 0.3, 0.05), float(end));
     } else {
-        // x, y: the nodes, with the class in the uppermost bits of y; z: m, length at rest; w: stretch at which a
-        // constraint begins to hold it, below 0 where none does.
-        uvec4 spring = lines[line];
+        uvec2 spring = lines[line];  // the nodes, with the class in the uppermost bits of the second
         uint i = spring.x, j = spring.y & 0x3fffffffu;
-        at = seen_position(end == 0u ? i : j);
+        at = positions[end == 0u ? i : j].xyz;
         hue = class_hues[spring.y >> 30];
         if (style.kind == 1u) {
-            float rest = uintBitsToFloat(spring.z), limit = uintBitsToFloat(spring.w);
-            // A constraint under force gives by its compliance, and so is a little longer than its limit.
-            visible = limit >= 0.0 && forces[i] > 0.0 && forces[j] > 0.0 &&
-                      distance(positions[i].xyz, positions[j].xyz) >= rest * (1.0 + 0.98 * limit);
+            visible = held[line] != 0u;
             hue = vec3(0.95, 0.03, 0.10);
         }
     }

@@ -5,5 +5,5 @@
 
 void main()
 {
-    gl_Position = frame.clip_from_world * vec4(seen_position(gl_VertexIndex), 1.0);
+    gl_Position = frame.clip_from_world * vec4(positions[gl_VertexIndex].xyz, 1.0);
 }

@@ -1,0 +1,131 @@
+#include "simulation/held_springs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "kernels/planes.hpp"
+
+namespace pliant {
+namespace {
+
+std::uint64_t key_of(std::uint32_t i, std::uint32_t j)
+{
+    return std::uint64_t{std::min(i, j)} << 32 | std::max(i, j);
+}
+
+/// The stretch from which a constraint can hold a spring of a class; below 0 where none does.
+double limit_of(const Scene& scene, const Cloth& cloth, SpringClass of)
+{
+    if (scene.method == Method::acad) {
+        if (scene.acad.compression) return -0.999;  // too short counts, too: the mark alone decides
+        return scene.acad.target == AcadTarget::rest ? 0 : scene.acad.activate_at;
+    }
+    if (scene.method != Method::constraint) return -1;
+    const SpringParameters& springs = of == SpringClass::structural ? cloth.springs.structural
+                                      : of == SpringClass::shear    ? cloth.springs.shear
+                                                                    : cloth.springs.bend;
+    const bool constraint = springs.role == SpringRole::constraint ||
+                            (springs.role == SpringRole::automatic && of != SpringClass::bend);
+    return constraint ? springs.limit : -1;
+}
+
+}  // namespace
+
+HeldSprings::HeldSprings(const ClothModel& model, const Scene& scene, const Cloth& cloth)
+{
+    if (model.hierarchy.empty()) return;
+    rows_ = scene.solver == Solver::paper;
+    marked_ = rows_ || scene.method == Method::acad;
+    const auto add = [&](std::uint32_t i, std::uint32_t j, SpringClass of, double rest) {
+        const double limit = limit_of(scene, cloth, of);
+        springs_.push_back({i, j, limit > -1 ? static_cast<float>(rest * (1 + limit)) : -1.0f, -1});
+    };
+    if (model.springs.empty() && model.sheet)
+        for_each_sheet_spring(*model.sheet, [&](std::uint32_t i, std::uint32_t j, const SheetNeighbour& n) {
+            add(i, j, n.spring_class, model.sheet->rest_lengths[static_cast<std::size_t>(n.rest)]);
+        });
+    else
+        for (const Spring& spring : model.springs)
+            add(spring.i, spring.j, spring.spring_class, spring.rest_length);
+    if (!marked_) return;
+    const std::vector<std::int32_t>& topology = model.hierarchy.topology;
+    const SolverLevel& level = model.hierarchy.levels.front();
+    const auto at = [&](int entry) {
+        return static_cast<std::size_t>(topology[static_cast<std::size_t>(entry)]);
+    };
+    if (rows_) {
+        first_ = at(rows_base) + row_mark * at(rows_size);
+        count_ = at(rows_constraints);
+        find_listed_marks(model, count_, topology.data() + at(rows_ends), 2);
+    } else if (level.edges > 0) {
+        first_ = static_cast<std::size_t>(level.edge_base + edge_mark * level.edge_size);
+        count_ = static_cast<std::size_t>(level.edges);
+        find_listed_marks(model, count_, topology.data() + level.edge_ends, 3);
+    } else {
+        first_ = static_cast<std::size_t>(level.base + plane_mark * level.size);
+        count_ = 6 * static_cast<std::size_t>(level.size);
+        find_sheet_marks(model);
+    }
+}
+
+void HeldSprings::find_sheet_marks(const ClothModel& model)
+{
+    const SolverLevel& level = model.hierarchy.levels.front();
+    const std::uint32_t columns = model.sheet->columns;
+    for (Row& spring : springs_) {
+        const auto row = static_cast<std::int32_t>(spring.i / columns),
+                   column = static_cast<std::int32_t>(spring.i % columns);
+        const std::int32_t down = static_cast<std::int32_t>(spring.j / columns) - row,
+                           right = static_cast<std::int32_t>(spring.j % columns) - column;
+        // As forward_offset of kernels/sheet.kernel.glsl.
+        const int k = down == 0 ? (right == 1 ? 0 : 4) : down == 2 ? 5 : 2 + right;
+        spring.mark = std::int64_t{k} * level.size + Hierarchy::offset(level, row, column);
+    }
+}
+
+void HeldSprings::find_listed_marks(const ClothModel& model, std::size_t count, const std::int32_t* ends,
+                                    std::size_t stride)
+{
+    const SolverLevel& level = model.hierarchy.levels.front();
+    std::unordered_map<std::int32_t, std::uint32_t> node_at;
+    for (std::uint32_t node = 0; node < model.node_count(); ++node) {
+        const auto columns = static_cast<std::uint32_t>(level.columns);
+        node_at[Hierarchy::offset(level, static_cast<std::int32_t>(node / columns),
+                                  static_cast<std::int32_t>(node % columns))] = node;
+    }
+    std::unordered_map<std::uint64_t, std::int64_t> mark_of;
+    for (std::size_t s = 0; s < count; ++s)
+        mark_of[key_of(node_at.at(ends[stride * s]), node_at.at(ends[stride * s + 1]))] =
+            static_cast<std::int64_t>(s);
+    for (Row& spring : springs_) {
+        const auto found = mark_of.find(key_of(spring.i, spring.j));
+        if (found != mark_of.end()) spring.mark = found->second;
+    }
+}
+
+void HeldSprings::read(PassRunner& runner, std::uint32_t model, std::span<const Vec3> positions,
+                       std::span<const float> forces, std::vector<std::uint32_t>& held)
+{
+    held.assign(springs_.size(), 0);
+    if (springs_.empty()) return;
+    if (marked_) {
+        // A step of acad that had nothing to solve leaves the marks of the last one that had.
+        if (!rows_ && runner.solver_scalar(model, scalar_idle) != 0) return;
+        runner.solver_numbers(model, first_, count_, marks_);
+    }
+    for (std::size_t s = 0; s < springs_.size(); ++s) {
+        const Row& spring = springs_[s];
+        if (spring.least < 0 || (marked_ && (spring.mark < 0 || marks_[std::size_t(spring.mark)] == 0)))
+            continue;
+        if (!rows_) {
+            const Vec3d d = to_double(positions[spring.j]) - to_double(positions[spring.i]);
+            const double least = double{spring.least};
+            // By its compliance a spring under force is a little longer than its limit.
+            if (!(forces[spring.i] > 0 && forces[spring.j] > 0 && std::sqrt(dot(d, d)) > least)) continue;
+        }
+        held[s] = 1;
+    }
+}
+
+}  // namespace pliant

@@ -1,0 +1,42 @@
+// Which springs of a cloth a constraint holds, by what its solver has decided in the last step.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "backend/pass_runner.hpp"
+
+namespace pliant {
+
+/// Springs in the order of Simulation::springs. What it reads into keeps its memory.
+class HeldSprings {
+public:
+    HeldSprings(const ClothModel& model, const Scene& scene, const Cloth& cloth);
+
+    /// 1 for each spring that is held. `forces`: the largest of a constraint at each node, N. A spring is
+    /// held by
+    /// - acad: when the solver marked it as a limit, and it is beyond that;
+    /// - the paper's solver: when it has a row of the system;
+    /// - constraint: when it is beyond its limit, and both its nodes feel a force.
+    void read(PassRunner& runner, std::uint32_t model, std::span<const Vec3> positions,
+              std::span<const float> forces, std::vector<std::uint32_t>& held);
+
+private:
+    struct Row {
+        std::uint32_t i = 0, j = 0;
+        float least = -1;        ///< m, length from which it can be held; below 0: never
+        std::int64_t mark = -1;  ///< place of its mark among `marks_`, when it has one
+    };
+    void find_sheet_marks(const ClothModel& model);
+    void find_listed_marks(const ClothModel& model, std::size_t count, const std::int32_t* ends,
+                           std::size_t stride);
+
+    bool marked_ = false;  ///< the solver marks springs
+    bool rows_ = false;    ///< it is the paper's
+    std::size_t first_ = 0, count_ = 0;
+    std::vector<Row> springs_;
+    std::vector<float> marks_;
+};
+
+}  // namespace pliant

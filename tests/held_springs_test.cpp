@@ -1,0 +1,106 @@
+// Which springs a constraint holds: against a hanging strip whose tensions are known, and on all backends
+// alike.
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "pliant/simulation.hpp"
+#include "test_runners.hpp"
+
+namespace pliant {
+namespace {
+
+constexpr std::uint32_t rows = 11, columns = 2;
+constexpr double threshold = 0.02, edge = 0.1;  // m
+
+/// A strip of 1 kg that hangs by its first row. Under row r hang 10 - r nodes of each column, so that its
+/// vertical springs carry T_r = (10 - r) g / 22; without a constraint they are longer by T_r / k. With this k
+/// the threshold lies between T_4 and T_5.
+Scene hanging_strip(Method method, Solver solver)
+{
+    Scene scene;
+    scene.method = method;
+    scene.solver = solver;
+    scene.acad.activate_at = threshold;
+    auto strip = scene.add(
+        Cloth::sheet({.rows = rows, .columns = columns, .width = edge, .height = 1, .density = 1 / edge}));
+    const double k = 5.5 * 9.81 / 22 / (threshold * edge);
+    strip->springs.structural = {k, 1};
+    strip->springs.shear = {0, 0};
+    strip->springs.bend = {0, 0};
+    strip->springs.structural.limit = strip->springs.shear.limit = 0;
+    strip->damping = 8;  // 1/s
+    for (std::uint32_t node = 0; node < columns; ++node) strip->pin(node);
+    strip->rotation = {90, 0, 0};
+    scene.time.substeps = 5;  // 3.3 ms, and 4.3 ms are stable
+    return scene;
+}
+
+std::vector<std::uint32_t> held_after(const Scene& scene, Backend backend, int frames, std::uint64_t& active)
+{
+    Simulation simulation(scene, {.backend = backend, .threads = 1});
+    for (int k = 0; k < frames; ++k) simulation.advance(1.0 / 60);
+    EXPECT_TRUE(simulation.report().finite);
+    active = simulation.report().solver.active_last;
+    const auto held = simulation.held_springs();
+    EXPECT_EQ(held.size(), simulation.springs().size());
+    return {held.begin(), held.end()};
+}
+
+/// By row, of the vertical springs of the first column.
+std::vector<std::uint32_t> vertical(const Scene& scene, const std::vector<std::uint32_t>& held)
+{
+    std::vector<std::uint32_t> of(rows - 1, 9);
+    const auto springs = Simulation(scene, {.backend = Backend::reference}).springs();
+    for (std::size_t s = 0; s < springs.size(); ++s)
+        if (springs[s].i % columns == 0 && springs[s].j == springs[s].i + columns)
+            of[springs[s].i / columns] = held[s];
+    return of;
+}
+
+TEST(HeldSprings, AreTheRowsOfThePapersSystem)
+{
+    const Scene scene = hanging_strip(Method::acad, Solver::paper);
+    for (const int frames : {4, 6, 9, 14}) {
+        std::uint64_t active = 0;
+        const auto held = held_after(scene, Backend::cpu, frames, active);
+        EXPECT_EQ(std::accumulate(held.begin(), held.end(), std::uint64_t{0}), active) << frames;
+        if (frames >= 6) {
+            EXPECT_GT(active, 0u) << frames;
+        }
+    }
+}
+
+TEST(HeldSprings, AreAllThatCarryWithTheMethodConstraint)
+{
+    const Scene scene = hanging_strip(Method::constraint, Solver::newton_multigrid);
+    std::uint64_t active = 0;
+    const auto held = held_after(scene, Backend::cpu, 120, active);
+    EXPECT_EQ(vertical(scene, held), std::vector<std::uint32_t>(rows - 1, 1));
+}
+
+TEST(HeldSprings, AreTheSameOnAllBackends)
+{
+    for (const Solver solver : {Solver::newton_multigrid, Solver::paper}) {
+        const Scene scene = hanging_strip(Method::acad, solver);
+        std::uint64_t active = 0;
+        const auto held = held_after(scene, Backend::cpu, 6, active);
+        EXPECT_GT(active, 0u);
+        if (!vulkan::list_physical_devices().empty()) {
+            EXPECT_EQ(held_after(scene, Backend::vulkan, 6, active), held) << name_of(solver);
+        }
+    }
+}
+
+TEST(HeldSprings, AreNoneWithoutConstraints)
+{
+    std::uint64_t active = 0;
+    const Scene scene = hanging_strip(Method::mass_spring, Solver::newton_multigrid);
+    Simulation simulation(scene, {.backend = Backend::cpu, .threads = 1});
+    simulation.advance(1.0 / 60);
+    EXPECT_TRUE(simulation.held_springs().empty());
+    EXPECT_EQ(simulation.report().solver.active_last, active);
+}
+
+}  // namespace
+}  // namespace pliant
