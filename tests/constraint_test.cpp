@@ -122,8 +122,9 @@ TEST(Constraint, PendulumHasThePeriodOfItsLength)
 
 TEST(Constraint, ImplicitStepDampsASwingAsItsTheorySays)
 {
-    // Implicit Euler multiplies the amplitude of a swing by (1 + (omega dt)^2)^(-1/2) in a step, which is a rate of
-    // omega^2 dt / 2 up to (omega dt)^2 = 5e-3 of itself. Angles of 0.1 rad change omega^2 by 1e-3 of itself.
+    // Implicit Euler multiplies the amplitude of a swing by (1 + (omega dt)^2)^(-1/2) in a step, which is a
+    // rate of omega^2 dt / 2 up to (omega dt)^2 = 5e-3 of itself. Angles of 0.1 rad change omega^2 by 1e-3 of
+    // itself.
     Scene scene = strip(2, 1.0, 1.0);
     converge(scene);
     const double angle = 0.1, omega2 = g;  // rad from the vertical; 1/s2, of a length of 1 m

@@ -177,7 +177,8 @@ TEST(FastMathAlone, GivesNodesAtOnePlaceNoDirection)
     for (const SimulationOptions& machine : machines) {
         const State state = state_after_a_step(model, machine);
         for (std::size_t k = 0; k < state.at(Resource::velocity).size(); ++k)  // it falls, and does no more
-            EXPECT_FLOAT_EQ(state.at(Resource::velocity)[k], k % 3 == 1 ? static_cast<float>(-9.81 * dt) : 0.0f);
+            EXPECT_FLOAT_EQ(state.at(Resource::velocity)[k],
+                            k % 3 == 1 ? static_cast<float>(-9.81 * dt) : 0.0f);
     }
 }
 

@@ -33,8 +33,8 @@ SurfaceMesh read_mesh(const std::filesystem::path& file);
 /// Whether the name ends as read_mesh asks.
 bool is_mesh_file(const std::filesystem::path& file);
 
-/// Reads a number of each vertex, a property of element 'vertex' of a `.ply` file, in the order of the vertices.
-/// Throws Error(bad_input) as read_mesh does, and when there is no property of that name.
+/// Reads a number of each vertex, a property of element 'vertex' of a `.ply` file, in the order of the
+/// vertices. Throws Error(bad_input) as read_mesh does, and when there is no property of that name.
 std::vector<float> read_vertex_attribute(const std::filesystem::path& file, const std::string& name);
 
 /// Writes a mesh by the ending of its name: `.ply` (binary little-endian) or `.obj`.

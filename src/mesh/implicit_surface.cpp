@@ -154,9 +154,10 @@ SurfaceMesh implicit_surface_mesh(const char* name, Field field, const Bounds& b
         spacing *= near ? 0.995 : std::sqrt(ratio);
         mesh = SurfaceNet(field, bounds, spacing).build();
     }
-    throw Error(ErrorKind::bad_input, std::string(name) + " is " + std::to_string(vertex_count) +
-                                          ", but no closed mesh of about so many vertices was found; ask for another number, a "
-                                          "larger one where the shape has thin parts");
+    throw Error(ErrorKind::bad_input,
+                std::string(name) + " is " + std::to_string(vertex_count) +
+                    ", but no closed mesh of about so many vertices was found; ask for another number, a "
+                    "larger one where the shape has thin parts");
 }
 
 }  // namespace pliant

@@ -1,4 +1,5 @@
-// 16 lanes with the machine's estimate of inverse square roots, and products fused with sums (CMakeLists.txt).
+// 16 lanes with the machine's estimate of inverse square roots, and products fused with sums
+// (CMakeLists.txt).
 #define PLIANT_FAST_MATH 1
 #define PLIANT_LANES 16
 #define PLIANT_KERNELS kernels_avx512_fast
