@@ -51,7 +51,7 @@ struct Keyframe {
 struct Attachment {
     Attachment() = default;
     template <PinLike Where>
-    Attachment(Where&& node_or_place, std::vector<Keyframe> motion = {})  // implicit, see above
+    Attachment(Where&& node_or_place, std::vector<Keyframe> motion = {})  // NOLINT: implicit; not a copy
         : where(std::forward<Where>(node_or_place)), keyframes(std::move(motion))
     {
     }

@@ -9,6 +9,8 @@
 namespace pliant {
 namespace {
 
+std::size_t size_of(std::int32_t a) { return static_cast<std::size_t>(a); }
+
 std::uint64_t key_of(std::uint32_t i, std::uint32_t j)
 {
     return std::uint64_t{std::min(i, j)} << 32 | std::max(i, j);
@@ -59,12 +61,12 @@ HeldSprings::HeldSprings(const ClothModel& model, const Scene& scene, const Clot
         count_ = at(rows_constraints);
         find_listed_marks(model, count_, topology.data() + at(rows_ends), 2);
     } else if (level.edges > 0) {
-        first_ = static_cast<std::size_t>(level.edge_base + edge_mark * level.edge_size);
-        count_ = static_cast<std::size_t>(level.edges);
+        first_ = size_of(level.edge_base) + edge_mark * size_of(level.edge_size);
+        count_ = size_of(level.edges);
         find_listed_marks(model, count_, topology.data() + level.edge_ends, 3);
     } else {
-        first_ = static_cast<std::size_t>(level.base + plane_mark * level.size);
-        count_ = 6 * static_cast<std::size_t>(level.size);
+        first_ = size_of(level.base) + plane_mark * size_of(level.size);
+        count_ = 6 * size_of(level.size);
         find_sheet_marks(model);
     }
 }

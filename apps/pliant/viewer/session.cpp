@@ -179,7 +179,7 @@ void Session::advance(double seconds, double patience)
         measured_ += seconds;
     }
     if (stepper_.is_idle()) {
-        for (std::size_t k = 0; k < edits_.size(); ++k) {  // there may be more of them by then
+        for (std::size_t k = 0; k < edits_.size(); ++k) {  // NOLINT: an edit may add more
             const auto edit = std::move(edits_[k]);
             edit();
         }
