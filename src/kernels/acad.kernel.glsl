@@ -47,17 +47,6 @@ KERNEL bool is_tested(int k)
 KERNEL void sheet_limits(int o)
 {
     vec3 x = node_next_position(o);
-    bool inside = all_springs_there();
-    if (!acad_has_memory()) {  // then nothing is counted where no spring is beyond
-        real most = real(-1.0f);
-        UNROLL for (int k = 0; k < 6; ++k) {
-            if (!is_tested(k)) continue;
-            vec3 d = node_next_position(o + forward_offset(k)) - x;
-            real over = excess(dot3(d, d), sheet_rest(k) * sheet_rest(k));
-            most = largest(most, inside ? over : choose(load(plane_scale + k, o) > 0.0f, over, real(-1.0f)));
-        }
-        if (!any_lane(most > 0.0f)) return;
-    }
     for (int k = 0; k < 6; ++k) {
         if (!is_tested(k)) continue;
         vec3 d = node_next_position(o + forward_offset(k)) - x;

@@ -216,30 +216,17 @@ inline Floats every_lane(Floats a, Floats b)
     return __builtin_shuffle(a, b, lanes);
 }
 
-/// Lanes 0, 2, ... of a, then of b. With 8 lanes in two steps, of which none crosses halves and moves lanes
-/// of both.
-template <int W, class Floats>
-inline Floats even_lanes(Floats a, Floats b)
+/// Every second lane from `first`, 0 or 1, on: of a, then of b. With 8 lanes in two steps, of which none
+/// crosses halves and moves lanes of both.
+template <int W, int first, class Floats>
+inline Floats second_lanes(Floats a, Floats b)
 {
     if constexpr (W == 8) {
         using Integers = typename LaneTypes<W>::Integers;
-        const Floats pairs = __builtin_shuffle(a, b, Integers{0, 2, 8, 10, 4, 6, 12, 14});
+        const Floats pairs = __builtin_shuffle(a, b, Integers{0, 2, 8, 10, 4, 6, 12, 14} + first);
         return __builtin_shuffle(pairs, Integers{0, 1, 4, 5, 2, 3, 6, 7});
     } else {
-        return every_lane<W, 0, 2>(a, b);
-    }
-}
-
-/// Lanes 1, 3, ... of a, then of b.
-template <int W, class Floats>
-inline Floats odd_lanes(Floats a, Floats b)
-{
-    if constexpr (W == 8) {
-        using Integers = typename LaneTypes<W>::Integers;
-        const Floats pairs = __builtin_shuffle(a, b, Integers{1, 3, 9, 11, 5, 7, 13, 15});
-        return __builtin_shuffle(pairs, Integers{0, 1, 4, 5, 2, 3, 6, 7});
-    } else {
-        return every_lane<W, 1, 2>(a, b);
+        return every_lane<W, first, 2>(a, b);
     }
 }
 
@@ -258,10 +245,10 @@ struct Lanes<Pack<W>> {
     using T = Pack<W>;
     static constexpr int count = W;
     static T load(const float* p) { return T::load(p); }
-    static T load_even(const float* p) { return even_lanes<W>(T::load(p).lanes, T::load(p + W).lanes); }
+    static T load_even(const float* p) { return second_lanes<W, 0>(T::load(p).lanes, T::load(p + W).lanes); }
     static void store(float* p, T a) { a.store(p); }
-    static T even_of(T a, T b) { return even_lanes<W>(a.lanes, b.lanes); }
-    static T odd_of(T a, T b) { return odd_lanes<W>(a.lanes, b.lanes); }
+    static T even_of(T a, T b) { return second_lanes<W, 0>(a.lanes, b.lanes); }
+    static T odd_of(T a, T b) { return second_lanes<W, 1>(a.lanes, b.lanes); }
     static void add_by_turns(float* p, T even, T odd, const float* where_low, const float* where_high)
     {
         const T zero(0.0f);

@@ -111,7 +111,7 @@ void coarsen_rows(int begin, int end)
             self.split_row(split[(row + 2) % 2], row, span);
             self.make_half_row(half_row(row), split[(row + 1) % 2], split[(row + 2) % 2], span);
         };
-        self.split_row(split[(2 * begin + 0) % 2], 2 * begin - 2, span);
+        self.split_row(split[0], 2 * begin - 2, span);  // an even row, as `make` has it
         make(2 * begin - 1);
         for (int row = begin; row < end; ++row) {
             make(2 * row);

@@ -176,18 +176,12 @@ void limits(Pass pass, int begin, int end)
     if (Lanes<T>::count == 1 || !plain) return nodes<&SolverKernels::sheet_limits>(pass, begin, end);
     const SumSlots slots = sum_slots_of(pass);
     SolverKernels self = *this;
-    const int per_row = (level.columns + segment_columns - 1) / segment_columns;
-    for (int segment = begin; segment < end; ++segment) {
-        const int row = segment / per_row, first = segment % per_row * segment_columns;
-        const int last = first + segment_columns < level.columns ? first + segment_columns : level.columns;
-        for (int group = first; group < last; group += sum_columns) {
-            const int group_end = group + sum_columns < last ? group + sum_columns : last;
-            if (self.is_within_limits(row, group, group_end))
-                context.parts[int(slots.first) * context.part_stride + part_of(row, group)] = Number(0);
-            else
-                self.nodes_of_group<&SolverKernels::sheet_limits>(slots, row, group, group_end);
-        }
-    }
+    for_each_group(begin, end, [&](int row, int first, int last) {
+        if (self.is_within_limits(row, first, last))
+            context.parts[int(slots.first) * context.part_stride + part_of(row, first)] = Number(0);
+        else
+            self.template nodes_of_group<&SolverKernels::sheet_limits>(slots, row, first, last);
+    });
 }
 KERNEL bool is_within_limits(int row, int begin, int end)
 {

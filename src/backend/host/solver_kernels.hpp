@@ -254,8 +254,6 @@ struct SolverKernels {
     real acad_near_below2() const { return spread(constants.acad_near_below2); }
     void set_multiplier(int o, real a) const { Lanes<T>::store(context.multiplier + o, a); }
     mask inside_level() const { return inside_; }
-    /// Whether no lane is near the border of the sheet, as far as `nodes` has said where it is.
-    bool all_springs_there() const { return all_there_; }
 
     int topology(int k) const { return context.topology[k]; }
     /// Of a mesh's edges: numbers of one edge lie together.
@@ -477,49 +475,51 @@ private:
     template <auto kernel>
     void numbered_nodes(int begin, int end)
     {
-        const int per_row = (level.columns + segment_columns - 1) / segment_columns;
-        for (int segment = begin; segment < end; ++segment) {
-            const int row = segment / per_row, first = segment % per_row * segment_columns;
-            const int last =
-                first + segment_columns < level.columns ? first + segment_columns : level.columns;
+        for_each_segment(begin, end, [&](int row, int first, int last) {
             for (int column = first; column < last; ++column)
                 (this->*kernel)(level_offset(row, column), row * level.columns + column);
-        }
+        });
     }
 
+    /// Calls function(row, first, last) for the columns of each segment of a row.
+    template <class Function>
+    KERNEL void for_each_segment(int begin, int end, const Function& function) const
+    {
+        const int per_row = (level.columns + segment_columns - 1) / segment_columns;
+        for (int segment = begin; segment < end; ++segment) {
+            const int first = segment % per_row * segment_columns, last = first + segment_columns;
+            function(segment / per_row, first, last < level.columns ? last : level.columns);
+        }
+    }
+    /// Calls function(row, first, last) for each group of columns that one part of a sum is made of.
+    template <class Function>
+    KERNEL void for_each_group(int begin, int end, const Function& function) const
+    {
+        for_each_segment(begin, end, [&](int row, int first, int last) {
+            for (int group = first; group < last; group += sum_columns)
+                function(row, group, group + sum_columns < last ? group + sum_columns : last);
+        });
+    }
     template <auto kernel>
     void nodes(Pass pass, int begin, int end)
     {
-        nodes<kernel>(sum_slots_of(pass), begin, end);
-    }
-    template <auto kernel>
-    void nodes(SumSlots slots, int begin, int end)
-    {
         SolverKernels self = *this;  // whose address nobody else knows
-        const int per_row = (level.columns + segment_columns - 1) / segment_columns;
-        for (int segment = begin; segment < end; ++segment) {
-            const int row = segment / per_row, first = segment % per_row * segment_columns;
-            const int last =
-                first + segment_columns < level.columns ? first + segment_columns : level.columns;
+        const SumSlots slots = sum_slots_of(pass);
+        if (slots.count > 0 && is_cloth_)  // nobody reads sums over coarser levels
+            return for_each_group(begin, end, [&](int row, int first, int last) {
+                self.template nodes_of_group<kernel>(slots, row, first, last);
+            });
+        for_each_segment(begin, end, [&](int row, int first, int last) {
             const int offset = level_offset(row, 0);
-            if (slots.count == 0 || !is_cloth_) {  // nobody reads sums over coarser levels
-                for (int column = first; column < last; column += Lanes<T>::count)
-                    (self.*kernel)(offset + column);
-                continue;
-            }
-            for (int group = first; group < last; group += sum_columns)
-                self.template nodes_of_group<kernel>(slots, row, group,
-                                                     group + sum_columns < last ? group + sum_columns : last);
-        }
+            for (int column = first; column < last; column += Lanes<T>::count)
+                (self.*kernel)(offset + column);
+        });
     }
     template <auto kernel>
     KERNEL void nodes_of_group(SumSlots slots, int row, int begin, int end)
     {
         const int offset = level_offset(row, 0);
-        summed(slots, part_of(row, begin), begin, end, [&](int column) {
-            all_there_ = row + 2 < level.rows && column > 0 && column + Lanes<T>::count + 2 <= level.columns;
-            (this->*kernel)(offset + column);
-        });
+        summed(slots, part_of(row, begin), begin, end, [&](int column) { (this->*kernel)(offset + column); });
     }
     int part_of(int row, int column) const
     {
@@ -567,7 +567,6 @@ private:
     Distance size_, finer_size_;
     Number *operator_, *finer_operator_;
     mask inside_{};
-    bool all_there_ = false;
     unsigned detail_;
     bool is_cloth_, finer_is_cloth_;
 };

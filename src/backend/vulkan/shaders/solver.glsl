@@ -190,7 +190,6 @@ void node_end(int o, vec3 x, vec3 v)
 
 // No invocation works on padding here, nor on a node twice.
 mask inside_level() { return true; }
-bool all_springs_there() { return false; }  // looks it up for each
 
 // What lies by edge on a mesh, and by spring in the paper's solver.
 int topology(int k) { return topology_entries[k]; }
