@@ -79,6 +79,19 @@ TEST(HeldSprings, AreAllThatCarryWithTheMethodConstraint)
     EXPECT_EQ(vertical(scene, held), std::vector<std::uint32_t>(rows - 1, 1));
 }
 
+TEST(HeldSprings, AreThoseBeyondTheThresholdWhereStepsAreTooLongForSpringsAlone)
+{
+    Scene scene = hanging_strip(Method::acad, Solver::newton_multigrid);
+    scene.time.substeps = 1;
+    scene.newton_multigrid = {.newton_iterations = 200,  // at rest, not on the way there
+                              .newton_tolerance = 1e-4,
+                              .linear_iterations = 40,
+                              .linear_tolerance = 1e-4};
+    std::uint64_t active = 0;
+    const auto held = held_after(scene, Backend::cpu, 600, active);
+    EXPECT_EQ(vertical(scene, held), (std::vector<std::uint32_t>{1, 1, 1, 1, 1, 0, 0, 0, 0, 0}));
+}
+
 TEST(HeldSprings, AreTheSameOnAllBackends)
 {
     for (const Solver solver : {Solver::newton_multigrid, Solver::paper}) {

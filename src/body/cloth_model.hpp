@@ -122,6 +122,9 @@ public:
     bool node_centric() const { return node_centric_; }
     bool feels_air() const { return parameters.air_density > 0; }
     bool is_body() const { return body.has_value(); }
+    /// ACAD where it can: a step is one of springs alone, and the solver makes good what it stretched too
+    /// far.
+    bool corrects_steps() const { return method == Method::acad && !acad_implicit; }
     /// A step adds external_force to its nodes: wind, or the loads of a body.
     bool has_external_force() const { return feels_air() || (body && !body->loads.empty()); }
     /// Springs, and the ring of neighbours, are gathered in one pass, which needs no list of forces.

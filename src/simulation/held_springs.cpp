@@ -16,31 +16,24 @@ std::uint64_t key_of(std::uint32_t i, std::uint32_t j)
     return std::uint64_t{std::min(i, j)} << 32 | std::max(i, j);
 }
 
-/// The stretch from which a constraint can hold a spring of a class; below 0 where none does.
-double limit_of(const Scene& scene, const Cloth& cloth, SpringClass of)
+/// The stretch from which a constraint can hold a spring of a class; below -1 where none does.
+double limit_of(const ClothModel& model, SpringClass of)
 {
-    if (scene.method == Method::acad) {
-        if (scene.acad.compression) return -0.999;  // too short counts, too: the mark alone decides
-        return scene.acad.target == AcadTarget::rest ? 0 : scene.acad.activate_at;
-    }
-    if (scene.method != Method::constraint) return -1;
-    const SpringParameters& springs = of == SpringClass::structural ? cloth.springs.structural
-                                      : of == SpringClass::shear    ? cloth.springs.shear
-                                                                    : cloth.springs.bend;
-    const bool constraint = springs.role == SpringRole::constraint ||
-                            (springs.role == SpringRole::automatic && of != SpringClass::bend);
-    return constraint ? springs.limit : -1;
+    const LimitedSprings& springs = model.limited[static_cast<std::size_t>(of)];
+    if (!(springs.beyond > 0)) return -2;
+    // Too short counts, too: the mark alone decides.
+    return model.method == Method::acad && model.acad.compression ? -0.999 : springs.limit;
 }
 
 }  // namespace
 
-HeldSprings::HeldSprings(const ClothModel& model, const Scene& scene, const Cloth& cloth)
+HeldSprings::HeldSprings(const ClothModel& model)
 {
     if (model.hierarchy.empty()) return;
-    rows_ = scene.solver == Solver::paper;
-    marked_ = rows_ || scene.method == Method::acad;
+    rows_ = model.solver == Solver::paper;
+    marked_ = rows_ || model.corrects_steps();
     const auto add = [&](std::uint32_t i, std::uint32_t j, SpringClass of, double rest) {
-        const double limit = limit_of(scene, cloth, of);
+        const double limit = limit_of(model, of);
         springs_.push_back({i, j, limit > -1 ? static_cast<float>(rest * (1 + limit)) : -1.0f, -1});
     };
     if (model.springs.empty() && model.sheet)

@@ -12,11 +12,12 @@ namespace pliant {
 /// Springs in the order of Simulation::springs. What it reads into keeps its memory.
 class HeldSprings {
 public:
-    HeldSprings(const ClothModel& model, const Scene& scene, const Cloth& cloth);
+    explicit HeldSprings(const ClothModel& model);
 
     /// 1 for each spring that is held. `forces`: the largest of a constraint at each node, N. A spring is
     /// held by
-    /// - acad: when the solver marked it as a limit, and it is beyond that;
+    /// - acad: when the solver marked it as a limit, and it is beyond that (as constraint where steps are too
+    ///   long for springs alone);
     /// - the paper's solver: when it has a row of the system;
     /// - constraint: when it is beyond its limit, and both its nodes feel a force.
     void read(PassRunner& runner, std::uint32_t model, std::span<const Vec3> positions,

@@ -129,7 +129,7 @@ std::span<const std::uint32_t> Simulation::Implementation::held_springs(std::siz
     const ClothPlace& place = places[cloth];
     if (models[place.model].is_body()) return {};  // they have no constraints
     held.resize(places.size());
-    if (!held[cloth]) held[cloth].emplace(models[place.model], scene, scene.cloth(cloth));
+    if (!held[cloth]) held[cloth].emplace(models[place.model]);
     const auto forces = multipliers(cloth);
     held[cloth]->read(*runner, place.model, values(cloth, Resource::position), forces, target.values);
     target.frame = state_number;

@@ -14,7 +14,7 @@ namespace {
 bool is_implicit(const ClothModel& cloth)
 {
     return !cloth.is_body() && uses_solver(cloth.method) && cloth.solver != Solver::paper &&
-           (cloth.method != Method::acad || cloth.acad_implicit);
+           !cloth.corrects_steps();
 }
 
 void append_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step, std::uint32_t parity,

@@ -41,7 +41,7 @@ SolverConstants<T> make_solver_constants(const ClothModel& model, double step_le
     }
     c.exact_bend = model.bends_by_constraints();
     c.is_graded = model.graded;
-    if (model.method == Method::acad && !model.acad_implicit) {
+    if (model.corrects_steps()) {
         const AcadOptions& acad = model.acad;
         const bool to_rest = acad.target == AcadTarget::rest;
         const double hold = acad.deactivate_at.value_or(acad.activate_at);
@@ -124,7 +124,7 @@ std::vector<Pass> summing_passes(const ClothModel& model)
     else
         passes.insert(passes.end(),
                       {Pass::mesh_springs, Pass::mesh_gather, Pass::mesh_apply, Pass::mesh_smooth});
-    if (model.method == Method::acad && !model.acad_implicit)
+    if (model.corrects_steps())
         passes.insert(passes.end(),
                       {Pass::acad_begin, model.is_sheet() ? Pass::sheet_limits : Pass::mesh_limits});
     else
