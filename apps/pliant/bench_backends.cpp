@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "backend/cpu/kernels.hpp"
+#include "backend/vulkan/sheet_tile.hpp"
 #include "bench_bytes.hpp"
 #include "bench_harness.hpp"
 #include "bench_stepping.hpp"
@@ -34,7 +35,8 @@ std::vector<SimulationOptions> everything(const SimulationOptions& given)
     for (const DeviceListing& device : list_devices()) {
         if (device.backend != Backend::vulkan) continue;
         SimulationOptions options{.backend = Backend::vulkan, .device = device.index};
-        for (options.gpu_substeps = 1; options.gpu_substeps <= 4; ++options.gpu_substeps)
+        for (options.gpu_substeps = 1; options.gpu_substeps <= vulkan::most_sheet_steps;
+             ++options.gpu_substeps)
             all.push_back(options);
         options.gpu_substeps = 1;
         options.fast_math = true;

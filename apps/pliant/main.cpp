@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "backend/vulkan/sheet_tile.hpp"
 #include "bench_command.hpp"
 #include "commands.hpp"
 #include "pliant/error.hpp"
@@ -55,7 +56,7 @@ void add_machine(CLI::App& app, SimulationOptions& options)
            "--gpu-substeps", options.gpu_substeps,
            "Vulkan: steps of a sheet in one dispatch where nothing is between them; the result does not "
            "depend on it (default 1)")
-        ->check(CLI::Range(1, 4))
+        ->check(CLI::Range(1u, vulkan::most_sheet_steps))
         ->type_name("N");
     options.pipeline_folder = cache_folder();
     app.add_flag_callback(

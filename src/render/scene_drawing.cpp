@@ -17,7 +17,7 @@ constexpr std::uint32_t floats_uploaded = 3, floats_on_device = 4;  // of a node
 
 /// As shaders/cloth_surface.comp.
 struct SurfaceStyle {
-    std::uint32_t node_count, rows, columns, stride, stride_before, strain;
+    std::uint32_t node_count, rows, columns, stride, strain;
 };
 
 /// Lists of pairs, one list for each node, as shaders take them: where each begins, then all of them.
@@ -226,7 +226,7 @@ void SceneDrawing::record_surfaces(const vk::raii::CommandBuffer& commands, unsi
     for (const ClothDrawing& cloth : cloths_) {
         const ClothSlot& of = cloth.slots[slot];
         commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, kit_->layout(), 1, *of.set, {});
-        push(commands, SurfaceStyle{cloth.node_count, cloth.rows, cloth.columns, of.stride, of.stride_before,
+        push(commands, SurfaceStyle{cloth.node_count, cloth.rows, cloth.columns, of.stride,
                                     strain && cloth.neighbours.size > 0 && !of.has_values ? 1u : 0u});
         commands.dispatch((cloth.node_count + PictureKit::surface_group - 1) / PictureKit::surface_group, 1,
                           1);
@@ -243,7 +243,7 @@ void SceneDrawing::bind_cloth(const ClothDrawing& cloth, ClothSlot& slot, const 
         upload(cloth, slot, *host);
         now = *slot.positions;
         before = host->before.empty() ? now : *slot.before;
-        slot.stride = slot.stride_before = floats_uploaded;
+        slot.stride = floats_uploaded;
     } else {
         const auto& device = std::get<DeviceCloth>(frame);
         if (device.node_count != cloth.node_count)
@@ -251,7 +251,7 @@ void SceneDrawing::bind_cloth(const ClothDrawing& cloth, ClothSlot& slot, const 
                    " nodes was given buffers of " + std::to_string(device.node_count));
         now = device.positions;
         before = device.before ? device.before : now;
-        slot.stride = slot.stride_before = floats_on_device;
+        slot.stride = floats_on_device;
     }
     take_extras(cloth, slot, extras);
     slot.has_values = !extras.values.empty();

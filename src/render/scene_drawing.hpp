@@ -96,7 +96,7 @@ private:
     struct ClothSlot {
         Buffer positions, before;     // only for host frames, made with the first of them
         Buffer values, held, points;  // only for overlays, made when one is there
-        std::uint32_t point_count = 0, stride = 0, stride_before = 0;
+        std::uint32_t point_count = 0, stride = 0;
         bool has_values = false, has_held = false;
         vk::raii::DescriptorSet set{nullptr};
         std::array<vk::Buffer, cloth_binding_count> bound{};

@@ -260,13 +260,12 @@ void Session::record(const StepNumbers& numbers)
 void Session::record_passes()
 {
     if (!stepper_.take_pass_times(times_)) return;
-    constexpr unsigned frames_of_a_mean = 20;
     pass_costs_.resize(times_.size());
     for (std::size_t k = 0; k < times_.size(); ++k) {
         const bool known = k < times_before_.size() && times_before_[k].name == times_[k].name;
         pass_costs_[k].name = times_[k].name;
-        pass_costs_[k].milliseconds =
-            (times_[k].milliseconds - (known ? times_before_[k].milliseconds : 0)) / frames_of_a_mean;
+        pass_costs_[k].milliseconds = (times_[k].milliseconds - (known ? times_before_[k].milliseconds : 0)) /
+                                      Stepper::steps_between_times;
     }
     times_before_ = times_;
 }

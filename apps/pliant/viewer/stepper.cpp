@@ -178,7 +178,6 @@ void Stepper::work()
 
 void Stepper::step()
 {
-    constexpr unsigned steps_between_times = 20;
     const auto start = Clock::now();
     simulation_->advance(1 / simulation_->scene().time.frame_rate);
     const double seconds = seconds_since(start);

@@ -35,6 +35,7 @@ struct StepNumbers {
 class Stepper {
 public:
     static constexpr unsigned most_steps = 16;
+    static constexpr unsigned steps_between_times = 20;  ///< of passes
 
     explicit Stepper(std::shared_ptr<vulkan::Device> device);
     ~Stepper();
@@ -61,7 +62,7 @@ public:
 
     /// Steps made since it was asked last, oldest first; returns their number.
     unsigned take(std::array<StepNumbers, most_steps>& numbers);
-    /// Times of passes, when there are newer ones: they come after every 20 steps.
+    /// Times of passes, when there are newer ones: they come after every `steps_between_times` steps.
     bool take_pass_times(std::vector<PassTime>& times);
     /// Seconds that filling states took since it was asked last.
     double take_seconds_of_states();

@@ -12,7 +12,7 @@ layout(local_size_x = 64) in;
 layout(push_constant) uniform Style {
     uint node_count;
     uint rows, columns;         // of a sheet; 0 for a mesh, whose triangles `ring` has
-    uint stride, stride_before; // floats of a node in `now` and in `before`
+    uint stride;                // floats of a node in `now` and in `before`
     uint strain;                // 1: values are wanted
 } style;
 
@@ -21,7 +21,6 @@ vec3 place_of(uint node)
     uint at = style.stride * node;
     vec3 last = vec3(now[at], now[at + 1u], now[at + 2u]);
     if (frame.blend >= 1.0f) return last;  // not even an infinity of the state before is looked at
-    at = style.stride_before * node;
     return mix(vec3(before[at], before[at + 1u], before[at + 2u]), last, frame.blend);
 }
 
