@@ -118,16 +118,8 @@ const FastCase cases[] = {{"sheet_31x33", [] { return test::flat_sheet(31, 33); 
                           {"mesh", mesh},
                           {"body", body}};
 
-/// With one device for all of them, so that pipelines of both kinds are there at once.
-class FastMath : public testing::TestWithParam<FastCase> {
-protected:
-    static void SetUpTestSuite()
-    {
-        device = std::make_shared<vulkan::Device>(vulkan::DeviceOptions{.validation = true});
-    }
-    static void TearDownTestSuite() { device.reset(); }
-    static inline std::shared_ptr<vulkan::Device> device;
-};
+/// On one device pipelines of both kinds are there at once.
+class FastMath : public test::OnOneDevice<FastCase> {};
 
 TEST_P(FastMath, IsTheStepToRoundingAndLeavesThePlainOneAsItIs)
 {

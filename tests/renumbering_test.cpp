@@ -25,18 +25,8 @@ SurfaceMesh leaping_mesh()
         for (std::uint32_t c = 0; c < columns; ++c)
             mesh.vertices[name(r, c)] = {static_cast<float>(c) / 16, static_cast<float>(r * c % 5) / 64,
                                          static_cast<float>(r) / 16};
-    for (std::uint32_t r = 0; r + 1 < rows; ++r)
-        for (std::uint32_t c = 0; c + 1 < columns; ++c) {
-            const std::uint32_t a = name(r, c), b = name(r, c + 1), d = name(r + 1, c),
-                                e = name(r + 1, c + 1);
-            if ((r + c) % 2 == 1) {
-                mesh.triangles.push_back({a, d, b});
-                mesh.triangles.push_back({b, d, e});
-            } else {
-                mesh.triangles.push_back({a, d, e});
-                mesh.triangles.push_back({a, e, b});
-            }
-        }
+    test::add_cells(mesh, rows, columns, name,
+                    [](std::uint32_t r, std::uint32_t c) { return (r + c) % 2 == 1; });
     return mesh;
 }
 

@@ -60,16 +60,7 @@ struct Size {
     std::uint32_t rows, columns;
 };
 
-/// With one device for all of them, so that pipelines are compiled once.
-class SheetSteps : public testing::TestWithParam<Size> {
-protected:
-    static void SetUpTestSuite()
-    {
-        device = std::make_shared<vulkan::Device>(vulkan::DeviceOptions{.validation = true});
-    }
-    static void TearDownTestSuite() { device.reset(); }
-    static inline std::shared_ptr<vulkan::Device> device;
-};
+class SheetSteps : public test::OnOneDevice<Size> {};
 
 TEST_P(SheetSteps, AreTheSameInOnePassOverTheRows)
 {

@@ -16,6 +16,26 @@ inline Cloth flat_sheet(std::uint32_t rows, std::uint32_t columns, double width 
     return cloth;
 }
 
+/// Two triangles for each cell of a patch: name(row, column) is the vertex there, and rises(row, column)
+/// whether the diagonal leads from the next column to the next row.
+template <class Name, class Choice>
+void add_cells(SurfaceMesh& mesh, std::uint32_t rows, std::uint32_t columns, const Name& name,
+               const Choice& rises)
+{
+    for (std::uint32_t r = 0; r + 1 < rows; ++r)
+        for (std::uint32_t c = 0; c + 1 < columns; ++c) {
+            const std::uint32_t a = name(r, c), b = name(r, c + 1), d = name(r + 1, c),
+                                e = name(r + 1, c + 1);
+            if (rises(r, c)) {
+                mesh.triangles.push_back({a, d, b});
+                mesh.triangles.push_back({b, d, e});
+            } else {
+                mesh.triangles.push_back({a, d, e});
+                mesh.triangles.push_back({a, e, b});
+            }
+        }
+}
+
 /// A triangulated patch with jittered vertices and diagonals at random; the vertices are numbered at random
 /// too, so that nothing in its order helps.
 inline SurfaceMesh irregular_mesh(std::uint32_t rows, std::uint32_t columns, unsigned seed = 7)
@@ -35,18 +55,9 @@ inline SurfaceMesh irregular_mesh(std::uint32_t rows, std::uint32_t columns, uns
             mesh.vertices[name[r * columns + c]] = {h * (static_cast<float>(c) + jitter(engine)),
                                                     h * 0.2f * jitter(engine),
                                                     h * (static_cast<float>(r) + jitter(engine))};
-    for (std::uint32_t r = 0; r + 1 < rows; ++r)
-        for (std::uint32_t c = 0; c + 1 < columns; ++c) {
-            const std::uint32_t a = name[r * columns + c], b = name[r * columns + c + 1];
-            const std::uint32_t d = name[(r + 1) * columns + c], e = name[(r + 1) * columns + c + 1];
-            if (engine() % 2) {
-                mesh.triangles.push_back({a, d, b});
-                mesh.triangles.push_back({b, d, e});
-            } else {
-                mesh.triangles.push_back({a, d, e});
-                mesh.triangles.push_back({a, e, b});
-            }
-        }
+    add_cells(
+        mesh, rows, columns, [&](std::uint32_t r, std::uint32_t c) { return name[r * columns + c]; },
+        [&](std::uint32_t, std::uint32_t) { return engine() % 2 == 1; });
     return mesh;
 }
 

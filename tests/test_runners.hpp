@@ -1,9 +1,13 @@
 // Backends below the public face, for tests of passes.
 #pragma once
 
+#include <memory>
 #include <random>
 
+#include <gtest/gtest.h>
+
 #include "backend/pass_runner.hpp"
+#include "backend/vulkan/device.hpp"
 #include "backend/vulkan/vulkan_runner.hpp"
 #include "test_cloths.hpp"
 
@@ -15,6 +19,18 @@ inline std::unique_ptr<PassRunner> make_runner(Backend backend, const ClothModel
     return backend == Backend::reference ? make_reference_runner({&model, 1})
                                          : make_cpu_runner({&model, 1}, {});
 }
+
+/// Tests with one device for all of a suite, so that pipelines are compiled once.
+template <class Parameter>
+class OnOneDevice : public testing::TestWithParam<Parameter> {
+protected:
+    static void SetUpTestSuite()
+    {
+        device = std::make_shared<vulkan::Device>(vulkan::DeviceOptions{.validation = true});
+    }
+    static void TearDownTestSuite() { device.reset(); }
+    static inline std::shared_ptr<vulkan::Device> device;
+};
 
 /// A cloth whose nodes are shaken, so that springs are stretched and moving.
 inline ClothModel shaken_model(const Scene& scene)
