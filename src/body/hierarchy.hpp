@@ -37,9 +37,6 @@ struct SolverLevel {
     std::int32_t padding = 0;
 };
 
-/// Columns that one sum of a row is taken over; a longer row has several.
-constexpr std::int32_t segment_columns = 1024;
-
 class Hierarchy {
 public:
     /// Empty for a cloth that needs no solver.

@@ -172,7 +172,7 @@ struct Kernels {
     void (*spring_forces)(const SpringArguments&, std::size_t first, std::size_t end);
     void (*list_step)(const ListArguments&, std::size_t first_slice, std::size_t end_slice);
     BodyKernel ring_step, volume_gather, volume_step, volume_cubic, volume_correct;
-    /// Segments or rows of a pass of the constraint solver.
+    /// Rows or groups of a pass of the constraint solver.
     void (*solve)(const SolverContext<float>&, const Call&, int first, int end);
 };
 

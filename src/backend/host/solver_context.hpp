@@ -49,7 +49,7 @@ struct SolverContext {
     const SolverLevel* levels = nullptr;
     const std::int32_t* topology = nullptr;
     Number* scalars = nullptr;
-    Number* parts = nullptr;  ///< sums of segments, a row for each slot
+    Number* parts = nullptr;  ///< sums of groups, a row for each slot
     int part_stride = 0;
     const int* part_counts = nullptr;  ///< by slot
     int bottom_base = 0, border_rows = 0, pad = 0;

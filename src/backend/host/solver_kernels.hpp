@@ -335,7 +335,8 @@ struct SolverKernels {
 
     // --- how they run ---
 
-    /// Runs the part [begin, end) of a pass over nodes: rows, in segments of `segment_columns`.
+    /// Runs the part [begin, end) of a pass over nodes: rows, or of a mesh, which has but one, groups of
+    /// `sum_columns`.
     void run(Pass pass, int begin, int end)
     {
         if constexpr (Lanes<T>::count == 1)
@@ -404,7 +405,7 @@ struct SolverKernels {
     }
 
 private:
-    /// Of meshes: over segments of nodes or of edges.
+    /// Of meshes: over groups of nodes or of edges.
     void run_mesh(Pass pass, int begin, int end)
     {
         using K = SolverKernels;
@@ -429,12 +430,12 @@ private:
     void finer_nodes(int begin, int end)
     {
         SolverKernels self = *this;
-        const int last = end * segment_columns < finer.columns ? end * segment_columns : finer.columns;
-        for (int column = begin * segment_columns; column < last; ++column)
+        const int last = end * sum_columns < finer.columns ? end * sum_columns : finer.columns;
+        for (int column = begin * sum_columns; column < last; ++column)
             (self.*kernel)(finer_offset(0, column));
     }
 
-    /// Of the solver paper: over segments of nodes or of rows, or over blocks of the prefix sum.
+    /// Of the solver paper: over groups of nodes or of rows, or over blocks of the prefix sum.
     void run_paper(Pass pass, int begin, int end)
     {
         using K = SolverKernels;
@@ -459,43 +460,42 @@ private:
         }
     }
 
-    /// Rows in segments of `segment_columns`; those beyond the `count`-th row have nothing but empty sums.
+    /// Rows in groups of `sum_columns`; those beyond the `count`-th row have nothing but empty sums.
     template <auto kernel>
     void rows(Pass pass, int begin, int end, int count)
     {
         const SumSlots slots = sum_slots_of(pass);
         SolverKernels self = *this;
-        for (int segment = begin; segment < end; ++segment)
-            for (int first = segment * segment_columns; first < (segment + 1) * segment_columns;
-                 first += sum_columns)
-                self.summed(slots, first / sum_columns, first,
-                            first + sum_columns < count ? first + sum_columns : count,
-                            [&](int k) { (self.*kernel)(k); });
+        for (int group = begin; group < end; ++group) {
+            const int first = group * sum_columns, last = first + sum_columns;
+            self.summed(slots, group, first, last < count ? last : count,
+                        [&](int k) { (self.*kernel)(k); });
+        }
     }
     template <auto kernel>
     void numbered_nodes(int begin, int end)
     {
-        for_each_segment(begin, end, [&](int row, int first, int last) {
+        for_each_row(begin, end, [&](int row, int first, int last) {
             for (int column = first; column < last; ++column)
                 (this->*kernel)(level_offset(row, column), row * level.columns + column);
         });
     }
 
-    /// Calls function(row, first, last) for the columns of each segment of a row.
+    /// Calls function(row, first, last) for the columns of each row, or for those of groups of the only one.
     template <class Function>
-    KERNEL void for_each_segment(int begin, int end, const Function& function) const
+    KERNEL void for_each_row(int begin, int end, const Function& function) const
     {
-        const int per_row = (level.columns + segment_columns - 1) / segment_columns;
-        for (int segment = begin; segment < end; ++segment) {
-            const int first = segment % per_row * segment_columns, last = first + segment_columns;
-            function(segment / per_row, first, last < level.columns ? last : level.columns);
-        }
+        if (level.rows > 1)
+            for (int row = begin; row < end; ++row) function(row, 0, level.columns);
+        else if (begin < end)
+            function(0, begin * sum_columns,
+                     end * sum_columns < level.columns ? end * sum_columns : level.columns);
     }
     /// Calls function(row, first, last) for each group of columns that one part of a sum is made of.
     template <class Function>
     KERNEL void for_each_group(int begin, int end, const Function& function) const
     {
-        for_each_segment(begin, end, [&](int row, int first, int last) {
+        for_each_row(begin, end, [&](int row, int first, int last) {
             for (int group = first; group < last; group += sum_columns)
                 function(row, group, group + sum_columns < last ? group + sum_columns : last);
         });
@@ -509,7 +509,7 @@ private:
             return for_each_group(begin, end, [&](int row, int first, int last) {
                 self.template nodes_of_group<kernel>(slots, row, first, last);
             });
-        for_each_segment(begin, end, [&](int row, int first, int last) {
+        for_each_row(begin, end, [&](int row, int first, int last) {
             const int offset = level_offset(row, 0);
             for (int column = first; column < last; column += Lanes<T>::count)
                 (self.*kernel)(offset + column);

@@ -181,21 +181,17 @@ template <class T>
 std::size_t SolverState<T>::size_of(const Call& call) const
 {
     const SolverLevel& level = hierarchy_->levels[call.level];
+    const auto groups = [](auto count) {
+        return (static_cast<std::size_t>(count) + sum_columns - 1) / sum_columns;
+    };
     switch (description_of(call.pass).size) {
-        case PassSize::cell: return static_cast<std::size_t>(level.rows);
         case PassSize::single: return 1;
-        case PassSize::row: return (row_count(call) + segment_columns - 1) / segment_columns;
-        case PassSize::edge:
-            return static_cast<std::size_t>((level.edges + segment_columns - 1) / segment_columns);
-        case PassSize::finer: {
-            const SolverLevel& finer = hierarchy_->levels[call.level - 1];
-            return static_cast<std::size_t>((finer.columns + segment_columns - 1) / segment_columns);
-        }
+        case PassSize::row: return groups(row_count(call));
+        case PassSize::edge: return groups(level.edges);
+        case PassSize::finer: return groups(hierarchy_->levels[call.level - 1].columns);
         case PassSize::scan: return hierarchy_->constraints.scan_blocks(call.detail);
-        default: break;
+        default: return level.rows > 1 ? static_cast<std::size_t>(level.rows) : groups(level.columns);
     }
-    return static_cast<std::size_t>(level.rows) *
-           static_cast<std::size_t>((level.columns + segment_columns - 1) / segment_columns);
 }
 
 template <class T>
@@ -208,11 +204,11 @@ std::size_t SolverState<T>::row_count(const Call& call) const
 template <class T>
 std::size_t SolverState<T>::weight_of(const Call& call) const
 {
-    if (description_of(call.pass).size == PassSize::row)
-        return std::min<std::size_t>(row_count(call), segment_columns);
-    if (description_of(call.pass).size == PassSize::scan) return block_size;
-    if (is_mesh_pass(call.pass)) return segment_columns;
-    return static_cast<std::size_t>(std::min(hierarchy_->levels[call.level].columns, segment_columns));
+    const PassSize size = description_of(call.pass).size;
+    const SolverLevel& level = hierarchy_->levels[call.level];
+    if (size == PassSize::scan) return block_size;
+    const bool by_rows = level.rows > 1 && (size == PassSize::level || size == PassSize::cell);
+    return by_rows ? static_cast<std::size_t>(level.columns) : sum_columns;
 }
 
 template <class T>

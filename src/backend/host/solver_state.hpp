@@ -39,7 +39,7 @@ public:
     {
         return call.guard != Guard::none && scalars_[static_cast<std::size_t>(call.guard)] != T(0);
     }
-    /// Rows or segments that a call works on.
+    /// Rows of a sheet or groups of sum_columns that a call works on.
     std::size_t size_of(const Call& call) const;
     /// Nodes in one of them, for the decision how many threads are worth it.
     std::size_t weight_of(const Call& call) const;
