@@ -20,6 +20,7 @@ Hierarchy::Hierarchy(const ClothModel& cloth)
         build_sheet(cloth);
     else
         build_mesh(cloth);
+    if (cloth.corrects_steps()) append_live_flags();
     const std::size_t bottom = 3 * std::size_t(levels.back().rows) * std::size_t(levels.back().columns);
     bottom_base = static_cast<std::int32_t>(number_count);
     number_count += bottom * bottom;
@@ -64,6 +65,21 @@ void Hierarchy::build_sheet(const ClothModel& cloth)
         columns = columns / 2 + 1;
         append_level(rows, columns, level_planes);
     } while (rows > few || columns > few);
+}
+
+/// One for each row of a sheet's level, or for each group of a mesh's nodes and of its edges.
+void Hierarchy::append_live_flags()
+{
+    const auto append = [this](std::int32_t count) {
+        const auto first = static_cast<std::int32_t>(number_count);
+        number_count += static_cast<std::size_t>(count);
+        return first;
+    };
+    const auto groups = [](std::int32_t count) { return (count + sum_columns - 1) / sum_columns; };
+    for (SolverLevel& level : levels) {
+        level.live = append(level.rows > 1 ? level.rows : groups(level.columns));
+        level.live_edges = append(groups(level.edges));
+    }
 }
 
 /// The paper's solver: the cloth alone, and patterns over its springs.

@@ -33,8 +33,10 @@ struct SolverLevel {
     std::int32_t children_start = 0;  ///< of nodes; sources are offsets on the finer one
     std::int32_t diagonal_start = 0;  ///< of nodes; sources are blocks of the finer one, see mesh.kernel.glsl
     std::int32_t coupling_start = 0;  ///< of edges; the same
-    std::int32_t reserved[6]{};
-    std::int32_t padding = 0;
+    // Of ACAD: where in the arena the flags of rows begin that take part in a solve
+    // (kernels/acad.kernel.glsl); on a mesh, of groups of nodes and of edges.
+    std::int32_t live = 0, live_edges = 0;
+    std::int32_t reserved[5]{};
 };
 
 class Hierarchy {
@@ -60,6 +62,7 @@ private:
     void build_sheet(const ClothModel& cloth);
     void build_mesh(const ClothModel& cloth);  // mesh_hierarchy.cpp
     void build_rows(const ClothModel& cloth);
+    void append_live_flags();
     SolverLevel append_level(std::int32_t rows, std::int32_t columns, std::int32_t planes);
     SolverLevel& append_mesh_level(std::int32_t nodes, std::int32_t edges, std::int32_t node_planes_count,
                                    std::int32_t edge_planes_count);

@@ -62,8 +62,39 @@ KERNEL void sheet_marks(int o)
         sums[0] = sums[0] + counted_over(k, o, dot3(d, d));
         mask held = load(plane_mark + k, o) > real(acad_has_memory() ? 0.0f : 2.0f);
         mask near = both(load(plane_scale + k, o) > 0.0f, is_near_threshold(dot3(d, d), sheet_rest(k), held));
-        store(plane_mark + k, o, choose(near, real(1.0f), real(0.0f)));
+        real mark = choose(near, real(1.0f), real(0.0f));
+        store(plane_mark + k, o, mark);
+        sums[1] = sums[1] + mark;
     }
+}
+
+// --- Rows that take part ----------------------------------------------------------------------------------------------
+// Where no marked spring reaches, the operator is inertia alone and the right-hand side zero: a solve leaves such nodes
+// where they are. So its passes are over those rows of a level that a marked spring reaches, and over those of coarser
+// levels that interpolate to them (of a mesh, over such groups of nodes and edges), which are called live. All numbers of
+// the others are zero, as if they were pinned: what was live in the last solve is cleared before the next one begins. So
+// a solve costs in proportion to the cloth around its constraints.
+
+KERNEL void sheet_clear(int o)
+{
+    int count = is_cloth() ? node_planes : level_planes;
+    for (int plane = 0; plane < count; ++plane) store(plane, o, real(0.0f));
+    if (!exact_bend()) return;
+    for (int plane = plane_bend; plane < bent_sheet_planes; ++plane) store(plane, o, real(0.0f));
+}
+
+// A spring begins at most two rows before one that it reaches; a row is interpolated from those at most one from it.
+KERNEL void sheet_live(int row)
+{
+    real found = real(0.0f);
+    int parts_of_row = (level.columns + sum_columns - 1) / sum_columns;
+    if (is_cloth())
+        for (int k = parts_of_row * (row > 2 ? row - 2 : 0); k < parts_of_row * (row + 1); ++k)
+            found = found + part_of_sum(sum_marked, k);
+    else
+        for (int r = 2 * row - 1; r <= 2 * row + 1; ++r)
+            if (r >= 0 && r < finer.rows) found = found + number(finer.live + r);
+    set_number(level.live + row, choose(found > 0.0f, real(1.0f), real(0.0f)));
 }
 
 // Where the springs alone have led is both the start and the aim of the minimisation. Friction has had its say there.

@@ -197,6 +197,62 @@ KERNEL void mesh_marks(int e)
     edge_store(edge_mark, e, choose(near, real(1.0f), real(0.0f)));
 }
 
+// What takes part in a solve, as acad.kernel.glsl has it for the rows of sheets: groups of nodes, and of edges.
+KERNEL void mesh_clear(int o)
+{
+    int count = is_cloth() ? node_planes : level_planes;
+    for (int plane = 0; plane < count; ++plane) store(plane, o, real(0.0f));
+    edge_store6(edge_block, level.edges + mesh_node(o), symmetric_diagonal(real(0.0f)));
+}
+KERNEL void mesh_clear_edges(int e)
+{
+    edge_store6(edge_block, e, symmetric_diagonal(real(0.0f)));
+    if (!is_cloth()) return;
+    edge_store3(edge_force, e, vec3(real(0.0f), real(0.0f), real(0.0f)));
+    edge_store(edge_taut, e, real(0.0f));
+}
+
+// Whether a marked spring ends at a node.
+KERNEL bool is_at_marked(int node)
+{
+    for (int list = 0; list < 2; ++list) {
+        int start = (list == 0 ? level.row_start : level.held_start) + node;
+        for (int k = topology(start); k < topology(start + 1); k += 2)
+            if (whole(edge_load(edge_mark, topology(k + 1))) > 0) return true;
+    }
+    return false;
+}
+// Whether a node of a coarser level interpolates to a live one.
+KERNEL bool has_live_child(int node)
+{
+    for (int k = topology(level.children_start + node); k < topology(level.children_start + node + 1); k += 2)
+        if (whole(number(finer.live + (topology(k) - finer_offset(0, 0)) / sum_columns)) > 0) return true;
+    return false;
+}
+// Whether a coupling of a coarser level comes from a live block.
+KERNEL bool has_live_source(int e)
+{
+    for (int k = topology(level.coupling_start + e); k < topology(level.coupling_start + e + 1); k += 2) {
+        int block = topology(k), node = block - finer.edges;
+        int flag = node < 0 ? finer.live_edges + block / sum_columns : finer.live + node / sum_columns;
+        if (whole(number(flag)) > 0) return true;
+    }
+    return false;
+}
+KERNEL void mesh_live(int group)
+{
+    int first = group * sum_columns, end = first + sum_columns;
+    int last_node = end < level.columns ? end : level.columns, last_edge = end < level.edges ? end : level.edges;
+    bool live = false;
+    for (int node = first; node < last_node && !live; ++node)
+        live = is_cloth() ? is_at_marked(node) : has_live_child(node);
+    if (first < level.columns) set_number(level.live + group, real(live ? 1.0f : 0.0f));
+    live = false;
+    for (int e = first; e < last_edge && !live; ++e)
+        live = is_cloth() ? whole(edge_load(edge_mark, e)) > 0 : has_live_source(e);
+    if (first < level.edges) set_number(level.live_edges + group, real(live ? 1.0f : 0.0f));
+}
+
 // The largest force of a constraint at a node, N.
 KERNEL void mesh_multipliers(int o)
 {

@@ -89,7 +89,9 @@ const int sum_rho = 5;              // r . z
 const int sum_load = 6;             // J
 const int sum_lost = 7;             // J
 const int sum_active = 8;           // constraints
-const int sum_slots = 9;
+const int sum_marked = 9;           // springs that ACAD has marked
+const int sum_slots = 10;
+const int sum_columns = 64;         // that one part of a sum is of
 
 // The paper's solver (paper.kernel.glsl) has a level 0 alone, and these planes on it.
 const int paper_q = 0;              // m, position at the start of the step

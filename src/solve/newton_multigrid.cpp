@@ -37,7 +37,10 @@ public:
     {
         add(on_mesh_ ? Pass::mesh_limits : Pass::sheet_limits);
         add(Pass::acad_check);
+        for (std::uint32_t level = 0; level < level_count_; ++level) clear(level);
         add(on_mesh_ ? Pass::mesh_marks : Pass::sheet_marks, Guard::idle);
+        for (std::uint32_t level = 0; level < level_count_; ++level)
+            add(on_mesh_ ? Pass::mesh_live : Pass::sheet_live, Guard::idle, level);
         add(Pass::acad_begin, Guard::idle);
         evaluate(Guard::idle);
         add(Pass::solve_begin);
@@ -84,6 +87,13 @@ private:
     void add(Pass pass, Guard guard = Guard::none, std::uint32_t level = 0, std::uint32_t detail = 0)
     {
         calls_.push_back({pass, index_, parity_, step_, level, detail, guard});
+    }
+
+    /// What took part in the last solve and may not in this one.
+    void clear(std::uint32_t level)
+    {
+        add(on_mesh_ ? Pass::mesh_clear : Pass::sheet_clear, Guard::idle, level);
+        if (on_mesh_) add(Pass::mesh_clear_edges, Guard::idle, level);
     }
 
     /// Energy, forces and operator at the displacement t.

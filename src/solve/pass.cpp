@@ -29,6 +29,26 @@ const PassDescription& description_of(Pass pass) { return passes[static_cast<std
 
 std::span<const PassDescription> all_passes() { return passes; }
 
+bool is_of_live_rows(Pass pass)
+{
+    switch (pass) {
+        case Pass::sheet_limits:
+        case Pass::mesh_limits:
+        case Pass::sheet_marks:
+        case Pass::mesh_marks:
+        case Pass::sheet_multipliers:
+        case Pass::mesh_multipliers: return false;
+        default: break;
+    }
+    switch (description_of(pass).size) {
+        case PassSize::level:
+        case PassSize::cell:
+        case PassSize::edge:
+        case PassSize::finer: return !is_paper_pass(pass);
+        default: return false;
+    }
+}
+
 MeasureTree::MeasureTree(std::uint32_t node_count)
 {
     const auto blocks = [](std::uint32_t n) { return (n + block_size - 1) / block_size; };

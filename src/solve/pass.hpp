@@ -40,7 +40,7 @@ enum class Resource : std::uint32_t {
     solver,      ///< the arena of numbers of the constraint solver, and its scalars
 };
 
-enum class PassSize { node, spring, block, level, cell, single, row, scan, edge, finer, fan, body };
+enum class PassSize { node, spring, block, level, cell, single, row, scan, edge, finer, live, fan, body };
 
 struct PassDescription {
     const char* name;
@@ -104,9 +104,9 @@ constexpr SumSlots sum_slots_of(Pass pass)
         case Pass::acad_begin:
         case Pass::step_begin: return {sum_load, 1};
         case Pass::mesh_limits:
-        case Pass::sheet_limits:
-        case Pass::sheet_marks: return {sum_active, 1};
-        case Pass::step_end: return {sum_lost, 2};  // and active constraints
+        case Pass::sheet_limits: return {sum_active, 1};
+        case Pass::sheet_marks: return {sum_active, 2};  // and marked springs
+        case Pass::step_end: return {sum_lost, 2};       // and active constraints
         case Pass::paper_springs: return {sum_active, 1};
         case Pass::paper_apply: return {sum_curvature, 1};
         case Pass::paper_system: return {sum_linear_residual2, 1};
@@ -116,9 +116,8 @@ constexpr SumSlots sum_slots_of(Pass pass)
 }
 constexpr std::uint32_t sum_slot_count = sum_slots;
 
-/// Sums are taken by one tree, whatever runs a pass: over groups of this many columns (or edges, or rows) by
-/// halves, which leaves the parts; then over the parts, every 256th in a lane, and the lanes by halves.
-constexpr int sum_columns = 64;
+/// Sums are taken by one tree, whatever runs a pass: over groups of sum_columns columns (or edges, or rows)
+/// by halves, which leaves the parts; then over the parts, every 256th in a lane, and the lanes by halves.
 constexpr int sum_lanes = 256;
 constexpr int most_sums = 3;  ///< of one pass
 constexpr std::uint32_t solver_scalar_count = scalar_count;
@@ -139,6 +138,9 @@ constexpr bool is_paper_pass(Pass pass) { return pass >= Pass::paper_begin && pa
 
 /// Those that go by the neighbours on a mesh: on the CPU they work on one node or edge at a time, too.
 constexpr bool is_mesh_pass(Pass pass) { return pass >= Pass::mesh_springs && pass <= Pass::mesh_prolong; }
+
+/// Those that ACAD's solve makes over rows (groups of a mesh) that have a marked spring, and no others.
+bool is_of_live_rows(Pass pass);
 
 /// Values of one block of a reduction.
 constexpr std::uint32_t block_size = 256;

@@ -21,6 +21,7 @@ const char* name_of_size(PassSize size)
         case PassSize::scan: return "256 rows";
         case PassSize::edge: return "edge";
         case PassSize::finer: return "finer node";
+        case PassSize::live: return "row, or 64 nodes and edges";
         case PassSize::fan: return "256 fans";
         case PassSize::body: return "body";
     }

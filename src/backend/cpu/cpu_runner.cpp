@@ -63,7 +63,8 @@ struct Work {
     {
         PlainCloth<float>& plain = cloth->plain;
         if (is_solver_pass(call->pass)) {
-            const bool scalar = description_of(call->pass).size == PassSize::single ||
+            const PassSize pass_size = description_of(call->pass).size;
+            const bool scalar = pass_size == PassSize::single || pass_size == PassSize::live ||
                                 is_paper_pass(call->pass) || is_mesh_pass(call->pass);
             unit = scalar ? Unit::single : Unit::solver;
             size = cloth->solver.size_of(c);

@@ -243,6 +243,7 @@ struct SolverKernels {
 
     bool is_first_look() const { return is_cloth_ && detail_ == first_look; }
     bool is_last_look() const { return detail_ == last_look; }
+    bool is_cloth() const { return is_cloth_; }
     bool is_acad() const { return constants.is_acad; }
     bool acad_has_memory() const { return constants.acad_has_memory; }
     bool acad_has_compression() const { return constants.acad_below2 > 0; }
@@ -300,6 +301,7 @@ struct SolverKernels {
     }
     real number(int k) const { return spread(context.arena[k]); }
     void set_number(int k, real a) const { context.arena[k] = Lanes<T>::first(a); }
+    real part_of_sum(int slot, int k) const { return spread(context.parts[slot * context.part_stride + k]); }
     static int whole(real a) { return static_cast<int>(Lanes<T>::first(a)); }
     int scan_level() const { return static_cast<int>(detail_); }
 
@@ -336,8 +338,26 @@ struct SolverKernels {
     // --- how they run ---
 
     /// Runs the part [begin, end) of a pass over nodes: rows, or of a mesh, which has but one, groups of
-    /// `sum_columns`.
+    /// `sum_columns`. In a solve of ACAD the live ones alone are there and counted
+    /// (kernels/acad.kernel.glsl).
     void run(Pass pass, int begin, int end)
+    {
+        if (!is_acad() || !is_of_live_rows(pass)) return run_rows(pass, begin, end);
+        const Number* live = context.arena + live_flags(pass, level, finer);
+        int first = -1;
+        const auto finish = [&](int last) {
+            if (first >= 0) run_rows(pass, first, last);
+            first = -1;
+        };
+        int row = 0;
+        for (int seen = 0; seen < end; ++row)
+            if (!(live[row] > Number(0)))
+                finish(row);
+            else if (seen++ >= begin && first < 0)
+                first = row;
+        finish(row);
+    }
+    void run_rows(Pass pass, int begin, int end)
     {
         if constexpr (Lanes<T>::count == 1)
             if (is_paper_pass(pass)) return run_paper(pass, begin, end);
@@ -370,6 +390,10 @@ struct SolverKernels {
             case Pass::step_end: return nodes<&K::step_end>(pass, begin, end);
             case Pass::sheet_limits: return limits(pass, begin, end);
             case Pass::sheet_marks: return nodes<&K::sheet_marks>(pass, begin, end);
+            case Pass::sheet_clear: clear_parts(begin, end); return nodes<&K::sheet_clear>(pass, begin, end);
+            case Pass::sheet_live:
+                for (int row = begin; row < end; ++row) sheet_live(row);
+                return;
             case Pass::acad_begin: return nodes<&K::acad_begin>(pass, begin, end);
             case Pass::acad_end: return nodes<&K::acad_end>(pass, begin, end);
             case Pass::sheet_multipliers: return nodes<&K::sheet_multipliers>(pass, begin, end);
@@ -421,6 +445,11 @@ private:
             case Pass::mesh_restrict: return nodes<&K::mesh_restrict>(pass, begin, end);
             case Pass::mesh_limits: return nodes<&K::mesh_limits>(pass, begin, end);
             case Pass::mesh_marks: return rows<&K::mesh_marks>(pass, begin, end, level.edges);
+            case Pass::mesh_clear: clear_parts(begin, end); return nodes<&K::mesh_clear>(pass, begin, end);
+            case Pass::mesh_clear_edges: return rows<&K::mesh_clear_edges>(pass, begin, end, level.edges);
+            case Pass::mesh_live:
+                for (int group = begin; group < end; ++group) mesh_live(group);
+                return;
             case Pass::mesh_multipliers: return nodes<&K::mesh_multipliers>(pass, begin, end);
             case Pass::mesh_prolong: return finer_nodes<&K::mesh_prolong>(begin, end);
             default: return;
@@ -468,8 +497,7 @@ private:
         SolverKernels self = *this;
         for (int group = begin; group < end; ++group) {
             const int first = group * sum_columns, last = first + sum_columns;
-            self.summed(slots, group, first, last < count ? last : count,
-                        [&](int k) { (self.*kernel)(k); });
+            self.summed(slots, group, first, last < count ? last : count, [&](int k) { (self.*kernel)(k); });
         }
     }
     template <auto kernel>
@@ -520,6 +548,16 @@ private:
     {
         const int offset = level_offset(row, 0);
         summed(slots, part_of(row, begin), begin, end, [&](int column) { (this->*kernel)(offset + column); });
+    }
+    /// The parts of sums that passes of ACAD's solve leave: of rows that are not live nobody writes them.
+    void clear_parts(int begin, int end) const
+    {
+        if (!is_cloth_) return;
+        const int first = level.rows > 1 ? part_of(begin, 0) : begin;
+        const int last = level.rows > 1 ? part_of(end, 0) : end;
+        for (int slot = 0; slot < sum_active; ++slot)
+            for (int k = first; k < last && k < context.part_counts[slot]; ++k)
+                context.parts[slot * context.part_stride + k] = Number(0);
     }
     int part_of(int row, int column) const
     {

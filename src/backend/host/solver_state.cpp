@@ -47,7 +47,7 @@ SolverConstants<T> make_solver_constants(const ClothModel& model, double step_le
         const double hold = acad.deactivate_at.value_or(acad.activate_at);
         // A limit may act before the threshold is reached in this very step; a constraint to rest length must
         // not.
-        const double near = to_rest ? acad.activate_at : 0.5 * acad.activate_at;
+        const double near = to_rest ? acad.activate_at : 0.8 * acad.activate_at;
         const auto above = [&](double stretch) { return number((1 + stretch) * (1 + stretch)); };
         const auto below = [&](double stretch) {
             return number(acad.compression ? (1 - stretch) * (1 - stretch) : 0);
@@ -126,7 +126,7 @@ std::vector<Pass> summing_passes(const ClothModel& model)
                       {Pass::mesh_springs, Pass::mesh_gather, Pass::mesh_apply, Pass::mesh_smooth});
     if (model.corrects_steps())
         passes.insert(passes.end(),
-                      {Pass::acad_begin, model.is_sheet() ? Pass::sheet_limits : Pass::mesh_limits});
+                      {Pass::acad_begin, model.is_sheet() ? Pass::sheet_marks : Pass::mesh_limits});
     else
         passes.insert(passes.end(), {Pass::step_begin, Pass::step_end});
     return passes;
@@ -154,7 +154,10 @@ SumParts::SumParts(const ClothModel& model, const Hierarchy& hierarchy)
 
 template <class T>
 SolverState<T>::SolverState(const ClothModel& model, const Hierarchy& hierarchy)
-    : hierarchy_(&hierarchy), arena_(hierarchy.number_count), scalars_(solver_scalar_count)
+    : hierarchy_(&hierarchy),
+      corrects_steps_(model.corrects_steps()),
+      arena_(hierarchy.number_count),
+      scalars_(solver_scalar_count)
 {
     if (hierarchy.empty()) return;
     set_first_numbers(model, hierarchy, arena_.data());
@@ -180,6 +183,17 @@ void SolverState<T>::take_mass(const ClothModel& model, std::size_t node)
 template <class T>
 std::size_t SolverState<T>::size_of(const Call& call) const
 {
+    const std::size_t all = whole_size_of(call);
+    if (!corrects_steps_ || !is_of_live_rows(call.pass)) return all;
+    const SolverLevel* levels = hierarchy_->levels.data();
+    const T* live = arena_.data() +
+                    live_flags(call.pass, levels[call.level], levels[call.level > 0 ? call.level - 1 : 0]);
+    return static_cast<std::size_t>(std::count_if(live, live + all, [](T flag) { return flag > T(0); }));
+}
+
+template <class T>
+std::size_t SolverState<T>::whole_size_of(const Call& call) const
+{
     const SolverLevel& level = hierarchy_->levels[call.level];
     const auto groups = [](auto count) {
         return (static_cast<std::size_t>(count) + sum_columns - 1) / sum_columns;
@@ -188,6 +202,9 @@ std::size_t SolverState<T>::size_of(const Call& call) const
         case PassSize::single: return 1;
         case PassSize::row: return groups(row_count(call));
         case PassSize::edge: return groups(level.edges);
+        case PassSize::live:
+            return level.rows > 1 ? static_cast<std::size_t>(level.rows)
+                                  : groups(std::max(level.columns, level.edges));
         case PassSize::finer: return groups(hierarchy_->levels[call.level - 1].columns);
         case PassSize::scan: return hierarchy_->constraints.scan_blocks(call.detail);
         default: return level.rows > 1 ? static_cast<std::size_t>(level.rows) : groups(level.columns);

@@ -60,8 +60,10 @@ public:
 private:
     /// Springs that a pass of the solver paper may have to do with.
     std::size_t row_count(const Call& call) const;
+    std::size_t whole_size_of(const Call& call) const;  ///< live or not
 
     const Hierarchy* hierarchy_;
+    bool corrects_steps_;
     AlignedArray<T> arena_;
     std::vector<T> scalars_, parts_;
     std::vector<int> part_counts_;

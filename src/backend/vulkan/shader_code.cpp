@@ -249,6 +249,15 @@ constexpr std::uint32_t mesh_limits[] = {
 constexpr std::uint32_t mesh_marks[] = {
 #include "shaders/mesh_marks.comp.inc"
 };
+constexpr std::uint32_t mesh_clear[] = {
+#include "shaders/mesh_clear.comp.inc"
+};
+constexpr std::uint32_t mesh_clear_edges[] = {
+#include "shaders/mesh_clear_edges.comp.inc"
+};
+constexpr std::uint32_t mesh_live[] = {
+#include "shaders/mesh_live.comp.inc"
+};
 
 constexpr std::uint32_t mesh_multipliers[] = {
 #include "shaders/mesh_multipliers.comp.inc"
@@ -264,6 +273,12 @@ constexpr std::uint32_t acad_check[] = {
 
 constexpr std::uint32_t sheet_marks[] = {
 #include "shaders/sheet_marks.comp.inc"
+};
+constexpr std::uint32_t sheet_clear[] = {
+#include "shaders/sheet_clear.comp.inc"
+};
+constexpr std::uint32_t sheet_live[] = {
+#include "shaders/sheet_live.comp.inc"
 };
 
 constexpr std::uint32_t acad_begin[] = {

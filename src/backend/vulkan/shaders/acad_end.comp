@@ -2,4 +2,4 @@
 // Its end.
 #extension GL_GOOGLE_include_directive : require
 #include "solver_nodes.glsl"
-NODE_PASS(acad_end)
+LIVE_NODE_PASS(acad_end)

@@ -2,4 +2,4 @@
 // What a correction leaves.
 #extension GL_GOOGLE_include_directive : require
 #include "solver_nodes.glsl"
-NODE_PASS(level_residual)
+LIVE_NODE_PASS(level_residual)

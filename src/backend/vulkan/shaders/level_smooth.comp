@@ -2,4 +2,4 @@
 // A smoothing step of the V-cycle.
 #extension GL_GOOGLE_include_directive : require
 #include "solver_nodes.glsl"
-NODE_PASS(level_smooth)
+LIVE_NODE_PASS(level_smooth)

@@ -2,4 +2,4 @@
 // What the operator makes of the direction.
 #extension GL_GOOGLE_include_directive : require
 #include "solver_nodes.glsl"
-NODE_PASS(linear_apply)
+LIVE_NODE_PASS(linear_apply)

@@ -2,4 +2,4 @@
 // The start of conjugate gradients.
 #extension GL_GOOGLE_include_directive : require
 #include "solver_nodes.glsl"
-NODE_PASS(linear_begin)
+LIVE_NODE_PASS(linear_begin)

@@ -2,4 +2,4 @@
 // The next direction of conjugate gradients.
 #extension GL_GOOGLE_include_directive : require
 #include "solver_nodes.glsl"
-NODE_PASS(linear_direction)
+LIVE_NODE_PASS(linear_direction)

@@ -2,4 +2,4 @@
 // A preconditioner to compare with: the diagonal blocks.
 #extension GL_GOOGLE_include_directive : require
 #include "solver_nodes.glsl"
-NODE_PASS(linear_jacobi)
+LIVE_NODE_PASS(linear_jacobi)

@@ -2,4 +2,4 @@
 // A preconditioner to compare with: none.
 #extension GL_GOOGLE_include_directive : require
 #include "solver_nodes.glsl"
-NODE_PASS(linear_plain)
+LIVE_NODE_PASS(linear_plain)

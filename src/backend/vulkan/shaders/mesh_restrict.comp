@@ -3,4 +3,4 @@
 #extension GL_GOOGLE_include_directive : require
 #include "solver_nodes.glsl"
 #include "kernels/mesh.kernel.glsl"
-NODE_PASS(mesh_restrict)
+LIVE_NODE_PASS(mesh_restrict)

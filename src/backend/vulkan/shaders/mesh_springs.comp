@@ -3,4 +3,4 @@
 #extension GL_GOOGLE_include_directive : require
 #include "solver_nodes.glsl"
 #include "kernels/mesh.kernel.glsl"
-ROW_PASS(mesh_springs, level.edges)
+LIVE_EDGE_PASS(mesh_springs)

@@ -2,4 +2,4 @@
 // Newton's step, whole.
 #extension GL_GOOGLE_include_directive : require
 #include "solver_nodes.glsl"
-NODE_PASS(newton_move)
+LIVE_NODE_PASS(newton_move)

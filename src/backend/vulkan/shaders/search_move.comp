@@ -2,4 +2,4 @@
 // A part of Newton's step.
 #extension GL_GOOGLE_include_directive : require
 #include "solver_nodes.glsl"
-NODE_PASS(search_move)
+LIVE_NODE_PASS(search_move)

@@ -9,4 +9,4 @@ void gather(int o)
     else
         sheet_gather(o);
 }
-NODE_PASS(gather)
+LIVE_NODE_PASS(gather)

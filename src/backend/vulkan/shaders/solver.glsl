@@ -14,6 +14,7 @@ struct SolverLevel
     int rows, columns, stride, base, size;
     int edges, edge_base, edge_size, edge_ends, row_start, held_start;
     int parents_start, children_start, diagonal_start, coupling_start;
+    int live, live_edges;
 };
 
 // As SolverBlock of solver_buffers.cpp.
@@ -49,8 +50,8 @@ bool is_skipped() { return push.guard != 32u && scalars[push.guard] != 0.0f; }
 SolverLevel level_at(uint k)
 {
     ivec4 a = solver.levels[6u * k], b = solver.levels[6u * k + 1u], c = solver.levels[6u * k + 2u];
-    ivec4 d = solver.levels[6u * k + 3u];
-    return SolverLevel(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w, d.x, d.y, d.z);
+    ivec4 d = solver.levels[6u * k + 3u], e = solver.levels[6u * k + 4u];
+    return SolverLevel(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w, d.x, d.y, d.z, d.w, e.x);
 }
 void find_levels()
 {
@@ -154,6 +155,7 @@ real newton_tolerance() { return solver.tolerances.y; }
 
 bool is_first_look() { return push.level == 0u && push.detail == 1u; }
 bool is_last_look() { return push.detail == 2u; }
+bool is_cloth() { return push.level == 0u; }
 bool is_acad() { return solver.acad_near.z != 0.0f; }
 bool acad_has_memory() { return solver.acad_near.w != 0.0f; }
 bool acad_has_compression() { return solver.acad_above_below.y > 0.0f; }
@@ -197,6 +199,7 @@ real topology_weight(int k) { return intBitsToFloat(topology(k)); }
 real number(int k) { return arena[k]; }
 void set_number(int k, real a) { arena[k] = a; }
 int whole(real a) { return int(a); }
+real part_of_sum(int slot, int k) { return parts[slot * solver.part_stride + k]; }
 int scan_level() { return int(push.detail); }
 int edge_at(int plane, int numbers, int e) { return level.edge_base + plane * level.edge_size + numbers * e; }
 real edge_load(int plane, int e) { return arena[edge_at(plane, 1, e)]; }

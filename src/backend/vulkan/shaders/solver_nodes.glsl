@@ -22,15 +22,24 @@ void leave_sums()
     }
 }
 
-#define NODE_PASS(kernel)                                                            \
+// Of ACAD's solve: the flag of a row or group (kernels/acad.kernel.glsl).
+bool is_live(int flag) { return !is_acad() || number(flag) > 0.0f; }
+bool is_live_node(SolverLevel of, int row, int column)
+{
+    return is_live(of.live + (of.rows > 1 ? row : column / sum_columns));
+}
+
+#define NODE_PASS_WHERE(kernel, condition)                                           \
     void main()                                                                      \
     {                                                                                \
         if (is_skipped()) return;                                                    \
         find_levels();                                                               \
         int row = int(gl_WorkGroupID.y), column = int(gl_GlobalInvocationID.x);      \
-        if (column < level.columns) kernel(level_offset(row, column));               \
+        if (column < level.columns && (condition)) kernel(level_offset(row, column)); \
         leave_sums();                                                                \
     }
+#define NODE_PASS(kernel) NODE_PASS_WHERE(kernel, true)
+#define LIVE_NODE_PASS(kernel) NODE_PASS_WHERE(kernel, is_live_node(level, row, column))
 
 #define NUMBERED_NODE_PASS(kernel)                                                                          \
     void main()                                                                                             \
@@ -42,15 +51,18 @@ void leave_sums()
     }
 
 // Over anything that is numbered through.
-#define ROW_PASS(kernel, count)                        \
-    void main()                                        \
-    {                                                  \
-        if (is_skipped()) return;                      \
-        find_levels();                                 \
-        int number_of = int(gl_GlobalInvocationID.x);  \
-        if (number_of < count) kernel(number_of);      \
-        leave_sums();                                  \
+#define ROW_PASS_WHERE(kernel, count, condition)                       \
+    void main()                                                        \
+    {                                                                  \
+        if (is_skipped()) return;                                      \
+        find_levels();                                                 \
+        int number_of = int(gl_GlobalInvocationID.x);                  \
+        if (number_of < count && (condition)) kernel(number_of);       \
+        leave_sums();                                                  \
     }
+#define ROW_PASS(kernel, count) ROW_PASS_WHERE(kernel, count, true)
+#define LIVE_EDGE_PASS(kernel) \
+    ROW_PASS_WHERE(kernel, level.edges, is_live(level.live_edges + number_of / sum_columns))
 
 // Over the nodes of the finer level, on a mesh.
 #define FINER_PASS(kernel)                                               \
@@ -59,7 +71,7 @@ void leave_sums()
         if (is_skipped()) return;                                        \
         find_levels();                                                   \
         int column = int(gl_GlobalInvocationID.x);                       \
-        if (column < finer.columns) kernel(finer_offset(0, column));     \
+        if (column < finer.columns && is_live_node(finer, 0, column)) kernel(finer_offset(0, column)); \
     }
 
 // With the nodes of the finer level that lie at and after those of this one.
@@ -69,6 +81,7 @@ void leave_sums()
         if (is_skipped()) return;                                                                \
         find_levels();                                                                           \
         int row = int(gl_WorkGroupID.y), column = int(gl_GlobalInvocationID.x);                  \
-        if (column < column_count) kernel(level_offset(row, column), finer_offset(2 * row, 2 * column)); \
+        if (column < column_count && is_live_node(level, row, column))                           \
+            kernel(level_offset(row, column), finer_offset(2 * row, 2 * column));                \
     }
 #endif
