@@ -57,10 +57,11 @@ struct RoundCloth {
 /// The clamp lies midway between the outermost two rings that are held (docs/physics.md#bending), and is put
 /// on the disc's rim; a clamp half a ring off costs an error of first order. Those two rings and the hem are
 /// round, the others as irregular as they come.
-RoundCloth round_cloth(std::uint32_t rings)
+RoundCloth round_cloth(std::uint32_t rings, std::uint32_t specimen)
 {
     const auto inner = static_cast<std::uint32_t>(std::lround(rings * disc_radius / cloth_radius - 0.5));
     const double spacing = (cloth_radius - disc_radius) / (rings - inner - 0.5);
+    const double turn = 0.7 * specimen;  // rad
     RoundCloth cloth{make_disc(rings, rings), static_cast<std::uint32_t>(disc_node_count(inner + 1))};
     for (std::uint32_t i = 1; i < cloth.mesh.vertices.size(); ++i) {
         const Vec3d x = to_double(cloth.mesh.vertices[i]);
@@ -69,7 +70,9 @@ RoundCloth round_cloth(std::uint32_t rings)
         const double ring = is_rim ? std::round(before) : before;
         const double place = ring < inner ? (disc_radius - spacing / 2) * ring / inner
                                           : cloth_radius - spacing * (rings - ring);
-        cloth.mesh.vertices[i] = to_float(x * (place / before));
+        const double c = std::cos(turn), s = std::sin(turn);
+        cloth.mesh.vertices[i] =
+            to_float(Vec3d{c * x.x + s * x.z, x.y, c * x.z - s * x.x} * (place / before));
     }
     return cloth;
 }
@@ -77,9 +80,9 @@ RoundCloth round_cloth(std::uint32_t rings)
 /// The drape coefficient, 0 to 1, of a material with `stiffer` times its bending stiffness. Its weight grows
 /// from a thirty-second, so that the cloth finds its folds while they are small, as on an instrument that
 /// lowers it, and is not crumpled by a fall; then it comes to rest.
-double drape_of(Material material, std::uint32_t rings, double stiffer = 1)
+double drape_of(Material material, std::uint32_t rings, double stiffer = 1, std::uint32_t specimen = 0)
 {
-    const RoundCloth shape = round_cloth(rings);
+    const RoundCloth shape = round_cloth(rings, specimen);
     Cloth cloth = Cloth::mesh(shape.mesh);
     cloth.make_of(material);
     cloth.springs.bending_stiffness *= stiffer;
@@ -113,6 +116,16 @@ double drape_of(Material material, std::uint32_t rings, double stiffer = 1)
     return 0;
 }
 
+/// Of three specimens, as the standard takes the mean of six: how many folds there are is up to chance, and
+/// each is turned its own way on the disc.
+double mean_drape_of(Material material, std::uint32_t rings)
+{
+    constexpr std::uint32_t specimens = 3;
+    double sum = 0;
+    for (std::uint32_t k = 0; k < specimens; ++k) sum += drape_of(material, rings, 1, k);
+    return sum / specimens;
+}
+
 struct Published {
     Material material;
     const char* name;
@@ -137,7 +150,7 @@ TEST_P(Drape, IsInThePublishedRangeAtTwoResolutionsAndRisesWithStiffness)
     // itself is. Energies of shapes at rest differ by 2 % between 15 and 26 rings, and a fold more or less by
     // 3 % of the ring.
     const Published& row = GetParam();
-    const double coarse = drape_of(row.material, 15), fine = drape_of(row.material, 20);
+    const double coarse = mean_drape_of(row.material, 15), fine = mean_drape_of(row.material, 20);
     const double softer = drape_of(row.material, 15, 0.25), stiffer = drape_of(row.material, 15, 4);
     const std::string name = std::string("drape of ") + row.name;
     test::measured(name + ", 15 rings", coarse);
