@@ -142,10 +142,11 @@ ClothModel::ClothModel(const Cloth& cloth, const Scene& scene)
                 acad.activate_at;  // a spring cannot be pulled to its rest length and be a spring, too
         }
     }
-    if (uses_solver(method)) hierarchy = Hierarchy(*this);
-    // The solver's aggregates and sums depend on the order of the nodes, explicit steps do not.
-    if (const auto* mesh = std::get_if<SurfaceMesh>(&cloth.shape); mesh && !body && !uses_solver(method))
+    const bool by_rows =
+        uses_solver(method) && solver == Solver::paper;  // of springs, in the order of the mesh
+    if (const auto* mesh = std::get_if<SurfaceMesh>(&cloth.shape); mesh && !body && !by_rows)
         renumber(node_order(*mesh));
+    if (uses_solver(method)) hierarchy = Hierarchy(*this);
 }
 
 void ClothModel::build_sheet(const Cloth& cloth, const SheetOptions& options)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <unordered_map>
 
 #include "kernels/planes.hpp"
@@ -27,7 +28,7 @@ double limit_of(const ClothModel& model, SpringClass of)
 
 }  // namespace
 
-HeldSprings::HeldSprings(const ClothModel& model)
+HeldSprings::HeldSprings(const ClothModel& model, std::span<const std::uint32_t> node_of_vertex)
 {
     if (model.hierarchy.empty()) return;
     rows_ = model.solver == Solver::paper;
@@ -43,7 +44,12 @@ HeldSprings::HeldSprings(const ClothModel& model)
     else
         for (const Spring& spring : model.springs)
             add(spring.i, spring.j, spring.spring_class, spring.rest_length);
-    if (!marked_) return;
+    if (marked_) find_marks(model);
+    if (!node_of_vertex.empty()) name_by_vertices(node_of_vertex);
+}
+
+void HeldSprings::find_marks(const ClothModel& model)
+{
     const std::vector<std::int32_t>& topology = model.hierarchy.topology;
     const SolverLevel& level = model.hierarchy.levels.front();
     const auto at = [&](int entry) {
@@ -97,6 +103,18 @@ void HeldSprings::find_listed_marks(const ClothModel& model, std::size_t count, 
         const auto found = mark_of.find(key_of(spring.i, spring.j));
         if (found != mark_of.end()) spring.mark = found->second;
     }
+}
+
+/// In the order of Simulation::springs, too.
+void HeldSprings::name_by_vertices(std::span<const std::uint32_t> node_of_vertex)
+{
+    std::vector<std::uint32_t> vertex_of(node_of_vertex.size());
+    for (std::uint32_t vertex = 0; vertex < vertex_of.size(); ++vertex)
+        vertex_of[node_of_vertex[vertex]] = vertex;
+    for (Row& spring : springs_)
+        std::tie(spring.i, spring.j) = std::minmax(vertex_of[spring.i], vertex_of[spring.j]);
+    std::sort(springs_.begin(), springs_.end(),
+              [](const Row& a, const Row& b) { return a.i != b.i ? a.i < b.i : a.j < b.j; });
 }
 
 void HeldSprings::read(PassRunner& runner, std::uint32_t model, std::span<const Vec3> positions,

@@ -12,10 +12,11 @@ namespace pliant {
 /// Springs in the order of Simulation::springs. What it reads into keeps its memory.
 class HeldSprings {
 public:
-    explicit HeldSprings(const ClothModel& model);
+    /// `node_of_vertex`: empty where they are the same.
+    HeldSprings(const ClothModel& model, std::span<const std::uint32_t> node_of_vertex);
 
-    /// 1 for each spring that is held. `forces`: the largest of a constraint at each node, N. A spring is
-    /// held by
+    /// 1 for each spring that is held. `positions`, m, and `forces`, the largest of a constraint, N, are by
+    /// vertex. A spring is held by
     /// - acad: when the solver marked it as a limit, and it is beyond that (as constraint where steps are too
     ///   long for springs alone);
     /// - the paper's solver: when it has a row of the system;
@@ -25,13 +26,15 @@ public:
 
 private:
     struct Row {
-        std::uint32_t i = 0, j = 0;
-        float least = -1;        ///< m, length from which it can be held; below 0: never
-        std::int64_t mark = -1;  ///< place of its mark among `marks_`, when it has one
+        std::uint32_t i = 0, j = 0;  ///< vertices; while marks are found, nodes
+        float least = -1;            ///< m, length from which it can be held; below 0: never
+        std::int64_t mark = -1;      ///< place of its mark among `marks_`, when it has one
     };
+    void find_marks(const ClothModel& model);
     void find_sheet_marks(const ClothModel& model);
     void find_listed_marks(const ClothModel& model, std::size_t count, const std::int32_t* ends,
                            std::size_t stride);
+    void name_by_vertices(std::span<const std::uint32_t> node_of_vertex);
 
     bool marked_ = false;  ///< the solver marks springs
     bool rows_ = false;    ///< it is the paper's

@@ -34,8 +34,12 @@ LinearBenchmark::LinearBenchmark(const Scene& scene, std::span<const Vec3> posit
                                  const SimulationOptions& options)
 {
     models_.emplace_back(scene.cloth(0), without_tolerance(scene));
-    models_.front().positions.assign(positions.begin(), positions.end());  // rest lengths are known already
-    models_.front().velocities.assign(velocities.begin(), velocities.end());
+    ClothModel& model = models_.front();
+    for (std::size_t vertex = 0; vertex < positions.size(); ++vertex) {  // rest lengths are known already
+        const std::size_t node = model.node_of_vertex.empty() ? vertex : model.node_of_vertex[vertex];
+        model.positions[node] = positions[vertex];
+        model.velocities[node] = velocities[vertex];
+    }
     runner_ = make_runner(models_, backend, options);
     input_.step_length = step_length;
     system_.id = 1;

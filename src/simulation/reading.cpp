@@ -116,7 +116,9 @@ std::span<const float> Simulation::Implementation::multipliers(std::size_t cloth
             append_multipliers(models[model], model, parity, program.calls);
         }
         runner->run(program, input(1 / scene.time.frame_rate));
-        runner->read(model, Resource::multiplier, parity, target.values);
+        const std::vector<float>& all = read_model(model, Resource::multiplier);
+        target.values.resize(places[cloth].node_count);
+        for (std::size_t i = 0; i < target.values.size(); ++i) target.values[i] = all[places[cloth].node(i)];
     }
     target.frame = state_number;
     return target.values;
@@ -129,7 +131,7 @@ std::span<const std::uint32_t> Simulation::Implementation::held_springs(std::siz
     const ClothPlace& place = places[cloth];
     if (models[place.model].is_body()) return {};  // they have no constraints
     held.resize(places.size());
-    if (!held[cloth]) held[cloth].emplace(models[place.model]);
+    if (!held[cloth]) held[cloth].emplace(models[place.model], place.node_of_vertex);
     const auto forces = multipliers(cloth);
     held[cloth]->read(*runner, place.model, values(cloth, Resource::position), forces, target.values);
     target.frame = state_number;
