@@ -47,12 +47,9 @@ Scene strip(bool on_mesh, double threshold = activate_at)
 std::vector<Vec3> pulled_apart(const ClothModel& model, std::uint32_t row)
 {
     std::vector<Vec3> positions = model.positions;
-    const auto node = [&](std::uint32_t vertex) {
-        return model.is_sheet() ? vertex : model.node_of_vertex[vertex];
-    };
-    const Vec3 a = positions[node(0)], b = positions[node(columns)];
+    const Vec3 a = positions[model.node(0)], b = positions[model.node(columns)];
     for (std::uint32_t vertex = (row + 1) * columns; vertex < positions.size(); ++vertex) {
-        const std::uint32_t i = node(vertex);
+        const std::uint32_t i = model.node(vertex);
         positions[i].x += 0.12f * (b.x - a.x);
         positions[i].y += 0.12f * (b.y - a.y);
         positions[i].z += 0.12f * (b.z - a.z);

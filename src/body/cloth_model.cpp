@@ -41,10 +41,7 @@ class PinnedNodes {
 public:
     PinnedNodes(const ClothModel& model) : model_(model) {}
 
-    std::vector<std::uint32_t> operator()(std::uint32_t index) const
-    {
-        return {model_.node_of_vertex.empty() ? index : model_.node_of_vertex[index]};
-    }
+    std::vector<std::uint32_t> operator()(std::uint32_t index) const { return {model_.node(index)}; }
     std::vector<std::uint32_t> operator()(Corner corner) const
     {
         const std::uint32_t last_row = model_.sheet->rows - 1, last_column = model_.sheet->columns - 1;
@@ -142,9 +139,9 @@ ClothModel::ClothModel(const Cloth& cloth, const Scene& scene)
                 acad.activate_at;  // a spring cannot be pulled to its rest length and be a spring, too
         }
     }
-    const bool by_rows =
-        uses_solver(method) && solver == Solver::paper;  // of springs, in the order of the mesh
-    if (const auto* mesh = std::get_if<SurfaceMesh>(&cloth.shape); mesh && !body && !by_rows)
+    // The paper's solver lists springs in the order of the mesh; a body has its own already.
+    const bool keeps_order = body || (uses_solver(method) && solver == Solver::paper);
+    if (const auto* mesh = std::get_if<SurfaceMesh>(&cloth.shape); mesh && !keeps_order)
         renumber(node_order(*mesh));
     if (uses_solver(method)) hierarchy = Hierarchy(*this);
 }

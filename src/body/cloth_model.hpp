@@ -202,6 +202,10 @@ public:
     Vec3d origin;  ///< m: positions are against it; 0 but for a body, which is stepped near its own origin
     /// The node of each vertex of the mesh; empty where they are the same.
     std::vector<std::uint32_t> node_of_vertex;
+    std::uint32_t node(std::uint32_t vertex) const
+    {
+        return node_of_vertex.empty() ? vertex : node_of_vertex[vertex];
+    }
 
 private:
     void build_body(const Cloth& cloth, const Scene& scene);

@@ -75,10 +75,9 @@ void Hierarchy::append_live_flags()
         number_count += static_cast<std::size_t>(count);
         return first;
     };
-    const auto groups = [](std::int32_t count) { return (count + sum_columns - 1) / sum_columns; };
     for (SolverLevel& level : levels) {
-        level.live = append(level.rows > 1 ? level.rows : groups(level.columns));
-        level.live_edges = append(groups(level.edges));
+        level.live = append(level.node_units());
+        level.live_edges = append(sum_groups(level.edges));
     }
 }
 

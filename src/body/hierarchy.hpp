@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "body/constraint_rows.hpp"
+#include "kernels/planes.hpp"
 
 namespace pliant {
 
@@ -37,6 +38,9 @@ struct SolverLevel {
     // (kernels/acad.kernel.glsl); on a mesh, of groups of nodes and of edges.
     std::int32_t live = 0, live_edges = 0;
     std::int32_t reserved[5]{};
+
+    /// What passes over nodes are divided into: rows of a sheet, and of a mesh, which has but one, groups.
+    std::int32_t node_units() const { return rows > 1 ? rows : sum_groups(columns); }
 };
 
 class Hierarchy {

@@ -75,10 +75,14 @@ KERNEL void sheet_marks(int o)
 // the others are zero, as if they were pinned: what was live in the last solve is cleared before the next one begins. So
 // a solve costs in proportion to the cloth around its constraints.
 
-KERNEL void sheet_clear(int o)
+KERNEL void clear_node(int o)
 {
     int count = is_cloth() ? node_planes : level_planes;
     for (int plane = 0; plane < count; ++plane) store(plane, o, real(0.0f));
+}
+KERNEL void sheet_clear(int o)
+{
+    clear_node(o);
     if (!exact_bend()) return;
     for (int plane = plane_bend; plane < bent_sheet_planes; ++plane) store(plane, o, real(0.0f));
 }

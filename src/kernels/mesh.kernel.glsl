@@ -200,8 +200,7 @@ KERNEL void mesh_marks(int e)
 // What takes part in a solve, as acad.kernel.glsl has it for the rows of sheets: groups of nodes, and of edges.
 KERNEL void mesh_clear(int o)
 {
-    int count = is_cloth() ? node_planes : level_planes;
-    for (int plane = 0; plane < count; ++plane) store(plane, o, real(0.0f));
+    clear_node(o);
     edge_store6(edge_block, level.edges + mesh_node(o), symmetric_diagonal(real(0.0f)));
 }
 KERNEL void mesh_clear_edges(int e)

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <unordered_map>
 
 #include "kernels/planes.hpp"
@@ -28,28 +27,18 @@ double limit_of(const ClothModel& model, SpringClass of)
 
 }  // namespace
 
-HeldSprings::HeldSprings(const ClothModel& model, std::span<const std::uint32_t> node_of_vertex)
+HeldSprings::HeldSprings(const ClothModel& model, std::span<const SpringListing> springs,
+                         std::span<const std::uint32_t> node_of_vertex)
 {
     if (model.hierarchy.empty()) return;
     rows_ = model.solver == Solver::paper;
     marked_ = rows_ || model.corrects_steps();
-    const auto add = [&](std::uint32_t i, std::uint32_t j, SpringClass of, double rest) {
-        const double limit = limit_of(model, of);
-        springs_.push_back({i, j, limit > -1 ? static_cast<float>(rest * (1 + limit)) : -1.0f, -1});
-    };
-    if (model.springs.empty() && model.sheet)
-        for_each_sheet_spring(*model.sheet, [&](std::uint32_t i, std::uint32_t j, const SheetNeighbour& n) {
-            add(i, j, n.spring_class, model.sheet->rest_lengths[static_cast<std::size_t>(n.rest)]);
-        });
-    else
-        for (const Spring& spring : model.springs)
-            add(spring.i, spring.j, spring.spring_class, spring.rest_length);
-    if (marked_) find_marks(model);
-    if (!node_of_vertex.empty()) name_by_vertices(node_of_vertex);
-}
-
-void HeldSprings::find_marks(const ClothModel& model)
-{
+    for (const SpringListing& spring : springs) {
+        const double limit = limit_of(model, static_cast<SpringClass>(spring.kind));
+        const double least = limit > -1 ? spring.rest_length * (1 + limit) : -1;
+        springs_.push_back({spring.i, spring.j, static_cast<float>(least), -1});
+    }
+    if (!marked_) return;
     const std::vector<std::int32_t>& topology = model.hierarchy.topology;
     const SolverLevel& level = model.hierarchy.levels.front();
     const auto at = [&](int entry) {
@@ -58,11 +47,11 @@ void HeldSprings::find_marks(const ClothModel& model)
     if (rows_) {
         first_ = at(rows_base) + row_mark * at(rows_size);
         count_ = at(rows_constraints);
-        find_listed_marks(model, count_, topology.data() + at(rows_ends), 2);
+        find_listed_marks(model, node_of_vertex, topology.data() + at(rows_ends), 2);
     } else if (level.edges > 0) {
         first_ = size_of(level.edge_base) + edge_mark * size_of(level.edge_size);
         count_ = size_of(level.edges);
-        find_listed_marks(model, count_, topology.data() + level.edge_ends, 3);
+        find_listed_marks(model, node_of_vertex, topology.data() + level.edge_ends, 3);
     } else {
         first_ = size_of(level.base) + plane_mark * size_of(level.size);
         count_ = 6 * size_of(level.size);
@@ -85,36 +74,25 @@ void HeldSprings::find_sheet_marks(const ClothModel& model)
     }
 }
 
-void HeldSprings::find_listed_marks(const ClothModel& model, std::size_t count, const std::int32_t* ends,
-                                    std::size_t stride)
+void HeldSprings::find_listed_marks(const ClothModel& model, std::span<const std::uint32_t> node_of_vertex,
+                                    const std::int32_t* ends, std::size_t stride)
 {
     const SolverLevel& level = model.hierarchy.levels.front();
-    std::unordered_map<std::int32_t, std::uint32_t> node_at;
-    for (std::uint32_t node = 0; node < model.node_count(); ++node) {
+    std::unordered_map<std::int32_t, std::uint32_t> vertex_at;
+    for (std::uint32_t vertex = 0; vertex < model.node_count(); ++vertex) {
         const auto columns = static_cast<std::uint32_t>(level.columns);
-        node_at[Hierarchy::offset(level, static_cast<std::int32_t>(node / columns),
-                                  static_cast<std::int32_t>(node % columns))] = node;
+        const std::uint32_t node = node_of_vertex.empty() ? vertex : node_of_vertex[vertex];
+        vertex_at[Hierarchy::offset(level, static_cast<std::int32_t>(node / columns),
+                                    static_cast<std::int32_t>(node % columns))] = vertex;
     }
     std::unordered_map<std::uint64_t, std::int64_t> mark_of;
-    for (std::size_t s = 0; s < count; ++s)
-        mark_of[key_of(node_at.at(ends[stride * s]), node_at.at(ends[stride * s + 1]))] =
+    for (std::size_t s = 0; s < count_; ++s)
+        mark_of[key_of(vertex_at.at(ends[stride * s]), vertex_at.at(ends[stride * s + 1]))] =
             static_cast<std::int64_t>(s);
     for (Row& spring : springs_) {
         const auto found = mark_of.find(key_of(spring.i, spring.j));
         if (found != mark_of.end()) spring.mark = found->second;
     }
-}
-
-/// In the order of Simulation::springs, too.
-void HeldSprings::name_by_vertices(std::span<const std::uint32_t> node_of_vertex)
-{
-    std::vector<std::uint32_t> vertex_of(node_of_vertex.size());
-    for (std::uint32_t vertex = 0; vertex < vertex_of.size(); ++vertex)
-        vertex_of[node_of_vertex[vertex]] = vertex;
-    for (Row& spring : springs_)
-        std::tie(spring.i, spring.j) = std::minmax(vertex_of[spring.i], vertex_of[spring.j]);
-    std::sort(springs_.begin(), springs_.end(),
-              [](const Row& a, const Row& b) { return a.i != b.i ? a.i < b.i : a.j < b.j; });
 }
 
 void HeldSprings::read(PassRunner& runner, std::uint32_t model, std::span<const Vec3> positions,

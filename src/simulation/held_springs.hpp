@@ -6,14 +6,16 @@
 #include <vector>
 
 #include "backend/pass_runner.hpp"
+#include "pliant/simulation.hpp"
 
 namespace pliant {
 
 /// Springs in the order of Simulation::springs. What it reads into keeps its memory.
 class HeldSprings {
 public:
-    /// `node_of_vertex`: empty where they are the same.
-    HeldSprings(const ClothModel& model, std::span<const std::uint32_t> node_of_vertex);
+    /// `springs`: as Simulation::springs has them. `node_of_vertex`: empty where they are the same.
+    HeldSprings(const ClothModel& model, std::span<const SpringListing> springs,
+                std::span<const std::uint32_t> node_of_vertex);
 
     /// 1 for each spring that is held. `positions`, m, and `forces`, the largest of a constraint, N, are by
     /// vertex. A spring is held by
@@ -26,15 +28,13 @@ public:
 
 private:
     struct Row {
-        std::uint32_t i = 0, j = 0;  ///< vertices; while marks are found, nodes
+        std::uint32_t i = 0, j = 0;  ///< vertices
         float least = -1;            ///< m, length from which it can be held; below 0: never
         std::int64_t mark = -1;      ///< place of its mark among `marks_`, when it has one
     };
-    void find_marks(const ClothModel& model);
     void find_sheet_marks(const ClothModel& model);
-    void find_listed_marks(const ClothModel& model, std::size_t count, const std::int32_t* ends,
-                           std::size_t stride);
-    void name_by_vertices(std::span<const std::uint32_t> node_of_vertex);
+    void find_listed_marks(const ClothModel& model, std::span<const std::uint32_t> node_of_vertex,
+                           const std::int32_t* ends, std::size_t stride);
 
     bool marked_ = false;  ///< the solver marks springs
     bool rows_ = false;    ///< it is the paper's

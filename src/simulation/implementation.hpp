@@ -67,6 +67,9 @@ public:
     std::span<const Vec3> values(std::size_t cloth, Resource resource);
     /// Numbers of all nodes of a model, read once for each state.
     const std::vector<float>& read_model(std::uint32_t model, Resource resource);
+    /// The same of one cloth, by vertex.
+    void read_cloth(std::size_t cloth, Resource resource, std::vector<float>& into);
+    std::vector<SpringListing> springs(std::size_t cloth) const;
     std::span<const float> strains(std::size_t cloth);
     std::span<const float> multipliers(std::size_t cloth);
     std::span<const std::uint32_t> held_springs(std::size_t cloth);

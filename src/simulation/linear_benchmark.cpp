@@ -35,10 +35,9 @@ LinearBenchmark::LinearBenchmark(const Scene& scene, std::span<const Vec3> posit
 {
     models_.emplace_back(scene.cloth(0), without_tolerance(scene));
     ClothModel& model = models_.front();
-    for (std::size_t vertex = 0; vertex < positions.size(); ++vertex) {  // rest lengths are known already
-        const std::size_t node = model.node_of_vertex.empty() ? vertex : model.node_of_vertex[vertex];
-        model.positions[node] = positions[vertex];
-        model.velocities[node] = velocities[vertex];
+    for (std::uint32_t vertex = 0; vertex < positions.size(); ++vertex) {  // rest lengths are known already
+        model.positions[model.node(vertex)] = positions[vertex];
+        model.velocities[model.node(vertex)] = velocities[vertex];
     }
     runner_ = make_runner(models_, backend, options);
     input_.step_length = step_length;

@@ -90,14 +90,20 @@ const std::vector<float>& Simulation::Implementation::read_model(std::uint32_t m
     return target.values;
 }
 
+void Simulation::Implementation::read_cloth(std::size_t cloth, Resource resource, std::vector<float>& into)
+{
+    const ClothPlace& place = places[cloth];
+    const std::vector<float>& all = read_model(place.model, resource);
+    into.resize(place.node_count);
+    for (std::size_t i = 0; i < into.size(); ++i) into[i] = all[place.node(i)];
+}
+
 std::span<const float> Simulation::Implementation::strains(std::size_t cloth)
 {
     ReadBack::Values<float>& target = read_backs.at(cloth).strains;
     if (target.frame == state_number) return target.values;
     update_drawing(cloth);
-    const std::vector<float>& all = read_model(places[cloth].model, Resource::strain);
-    target.values.resize(places[cloth].node_count);
-    for (std::size_t i = 0; i < target.values.size(); ++i) target.values[i] = all[places[cloth].node(i)];
+    read_cloth(cloth, Resource::strain, target.values);
     target.frame = state_number;
     return target.values;
 }
@@ -116,12 +122,40 @@ std::span<const float> Simulation::Implementation::multipliers(std::size_t cloth
             append_multipliers(models[model], model, parity, program.calls);
         }
         runner->run(program, input(1 / scene.time.frame_rate));
-        const std::vector<float>& all = read_model(model, Resource::multiplier);
-        target.values.resize(places[cloth].node_count);
-        for (std::size_t i = 0; i < target.values.size(); ++i) target.values[i] = all[places[cloth].node(i)];
+        read_cloth(cloth, Resource::multiplier, target.values);
     }
     target.frame = state_number;
     return target.values;
+}
+
+std::vector<SpringListing> Simulation::Implementation::springs(std::size_t cloth) const
+{
+    const auto& place = places.at(cloth);
+    const ClothModel& model = models[place.model];
+    std::vector<SpringListing> listing;
+    const auto add = [&](std::uint32_t i, std::uint32_t j, SpringClass of, double rest_length) {
+        auto kind = static_cast<SpringKind>(of);
+        if (model.is_body() && of == SpringClass::shear) kind = SpringKind::internal;
+        listing.push_back({i, j, kind, rest_length});
+    };
+    if (model.springs.empty() && model.sheet) {
+        for_each_sheet_spring(*model.sheet, [&](std::uint32_t i, std::uint32_t j, const SheetNeighbour& n) {
+            add(i, j, n.spring_class, model.sheet->rest_lengths[static_cast<std::size_t>(n.rest)]);
+        });
+        return listing;
+    }
+    std::vector<std::uint32_t> vertex_of(place.node_count);
+    for (std::uint32_t k = 0; k < place.node_count; ++k) vertex_of[place.node(k) - place.first_node] = k;
+    for (const Spring& spring : model.springs) {
+        if (spring.i < place.first_node || spring.i >= place.first_node + place.node_count) continue;
+        const auto [i, j] =
+            std::minmax(vertex_of[spring.i - place.first_node], vertex_of[spring.j - place.first_node]);
+        add(i, j, spring.spring_class, spring.rest_length);
+    }
+    std::sort(listing.begin(), listing.end(), [](const SpringListing& a, const SpringListing& b) {
+        return a.i != b.i ? a.i < b.i : a.j < b.j;
+    });
+    return listing;
 }
 
 std::span<const std::uint32_t> Simulation::Implementation::held_springs(std::size_t cloth)
@@ -131,7 +165,7 @@ std::span<const std::uint32_t> Simulation::Implementation::held_springs(std::siz
     const ClothPlace& place = places[cloth];
     if (models[place.model].is_body()) return {};  // they have no constraints
     held.resize(places.size());
-    if (!held[cloth]) held[cloth].emplace(models[place.model], place.node_of_vertex);
+    if (!held[cloth]) held[cloth].emplace(models[place.model], springs(cloth), place.node_of_vertex);
     const auto forces = multipliers(cloth);
     held[cloth]->read(*runner, place.model, values(cloth, Resource::position), forces, target.values);
     target.frame = state_number;

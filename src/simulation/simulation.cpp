@@ -106,32 +106,7 @@ std::vector<PinListing> Simulation::pins(std::size_t cloth) const
 
 std::vector<SpringListing> Simulation::springs(std::size_t cloth) const
 {
-    const auto& place = implementation_->places.at(cloth);
-    const ClothModel& model = implementation_->models[place.model];
-    std::vector<SpringListing> listing;
-    const auto add = [&](std::uint32_t i, std::uint32_t j, SpringClass of, double rest_length) {
-        auto kind = static_cast<SpringKind>(of);
-        if (model.is_body() && of == SpringClass::shear) kind = SpringKind::internal;
-        listing.push_back({i, j, kind, rest_length});
-    };
-    if (model.springs.empty() && model.sheet) {
-        for_each_sheet_spring(*model.sheet, [&](std::uint32_t i, std::uint32_t j, const SheetNeighbour& n) {
-            add(i, j, n.spring_class, model.sheet->rest_lengths[static_cast<std::size_t>(n.rest)]);
-        });
-        return listing;
-    }
-    std::vector<std::uint32_t> vertex_of(place.node_count);
-    for (std::uint32_t k = 0; k < place.node_count; ++k) vertex_of[place.node(k) - place.first_node] = k;
-    for (const Spring& spring : model.springs) {
-        if (spring.i < place.first_node || spring.i >= place.first_node + place.node_count) continue;
-        const auto [i, j] =
-            std::minmax(vertex_of[spring.i - place.first_node], vertex_of[spring.j - place.first_node]);
-        add(i, j, spring.spring_class, spring.rest_length);
-    }
-    std::sort(listing.begin(), listing.end(), [](const SpringListing& a, const SpringListing& b) {
-        return a.i != b.i ? a.i < b.i : a.j < b.j;
-    });
-    return listing;
+    return implementation_->springs(cloth);
 }
 
 std::span<const Vec3> Simulation::positions(const ClothHandle& cloth) { return positions(cloth.index()); }

@@ -62,8 +62,8 @@ struct Work {
         : call(&c), cloth(&target), kernels(&k), constants(&values), colliders(shapes)
     {
         PlainCloth<float>& plain = cloth->plain;
+        const PassSize pass_size = description_of(call->pass).size;
         if (is_solver_pass(call->pass)) {
-            const PassSize pass_size = description_of(call->pass).size;
             const bool scalar = pass_size == PassSize::single || pass_size == PassSize::live ||
                                 is_paper_pass(call->pass) || is_mesh_pass(call->pass);
             unit = scalar ? Unit::single : Unit::solver;
@@ -94,7 +94,6 @@ struct Work {
             size = plain.size_of(*call);
             const bool of_mesh = call->pass == Pass::list_measure && !plain.model.is_sheet();
             if (call->pass == Pass::sheet_measure || of_mesh) unit = Unit::measures;
-            const PassSize pass_size = description_of(call->pass).size;
             if (pass_size == PassSize::block || pass_size == PassSize::fan) weight = block_size;
         }
     }

@@ -47,7 +47,9 @@ SolverConstants<T> make_solver_constants(const ClothModel& model, double step_le
         const double hold = acad.deactivate_at.value_or(acad.activate_at);
         // A limit may act before the threshold is reached in this very step; a constraint to rest length must
         // not.
-        const double near = to_rest ? acad.activate_at : 0.8 * acad.activate_at;
+        // From half of the threshold on, wrinkles would be marked all over the cloth (docs/performance.md).
+        constexpr double near_part = 0.8;
+        const double near = to_rest ? acad.activate_at : near_part * acad.activate_at;
         const auto above = [&](double stretch) { return number((1 + stretch) * (1 + stretch)); };
         const auto below = [&](double stretch) {
             return number(acad.compression ? (1 - stretch) * (1 - stretch) : 0);
@@ -132,8 +134,6 @@ std::vector<Pass> summing_passes(const ClothModel& model)
     return passes;
 }
 
-int parts_in(std::size_t columns) { return static_cast<int>((columns + sum_columns - 1) / sum_columns); }
-
 }  // namespace
 
 SumParts::SumParts(const ClothModel& model, const Hierarchy& hierarchy)
@@ -143,10 +143,10 @@ SumParts::SumParts(const ClothModel& model, const Hierarchy& hierarchy)
         const SumSlots slots = sum_slots_of(pass);
         const PassSize size = description_of(pass).size;
         const ConstraintRows& rows = hierarchy.constraints;
-        const int parts = size == PassSize::edge ? parts_in(static_cast<std::size_t>(cloth.edges))
-                          : size == PassSize::row
-                              ? parts_in(pass == Pass::paper_springs ? rows.springs : rows.constraints)
-                              : cloth.rows * parts_in(static_cast<std::size_t>(cloth.columns));
+        const std::size_t row_count = pass == Pass::paper_springs ? rows.springs : rows.constraints;
+        const int parts = size == PassSize::edge  ? sum_groups(cloth.edges)
+                          : size == PassSize::row ? sum_groups(static_cast<int>(row_count))
+                                                  : cloth.rows * sum_groups(cloth.columns);
         for (std::uint32_t k = 0; k < slots.count; ++k) counts[slots.first + k] = parts;
         stride = std::max(stride, parts);
     }
@@ -196,18 +196,17 @@ std::size_t SolverState<T>::whole_size_of(const Call& call) const
 {
     const SolverLevel& level = hierarchy_->levels[call.level];
     const auto groups = [](auto count) {
-        return (static_cast<std::size_t>(count) + sum_columns - 1) / sum_columns;
+        return static_cast<std::size_t>(sum_groups(static_cast<int>(count)));
     };
     switch (description_of(call.pass).size) {
         case PassSize::single: return 1;
         case PassSize::row: return groups(row_count(call));
         case PassSize::edge: return groups(level.edges);
         case PassSize::live:
-            return level.rows > 1 ? static_cast<std::size_t>(level.rows)
-                                  : groups(std::max(level.columns, level.edges));
+            return std::max(static_cast<std::size_t>(level.node_units()), groups(level.edges));
         case PassSize::finer: return groups(hierarchy_->levels[call.level - 1].columns);
         case PassSize::scan: return hierarchy_->constraints.scan_blocks(call.detail);
-        default: return level.rows > 1 ? static_cast<std::size_t>(level.rows) : groups(level.columns);
+        default: return static_cast<std::size_t>(level.node_units());
     }
 }
 

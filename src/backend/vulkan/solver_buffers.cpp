@@ -19,8 +19,6 @@ constexpr std::size_t most_slots = 16;
 static_assert(sum_slot_count <= most_slots);
 static_assert(group_columns == sum_columns);
 
-std::int32_t groups_in(std::int32_t count) { return (count + group_columns - 1) / group_columns; }
-
 struct Float4 {
     float x = 0, y = 0, z = 0, w = 0;
 };
@@ -105,7 +103,7 @@ SolverBuffers::SolverBuffers(const Device& device, const ClothModel& model) : mo
 
 Groups SolverBuffers::groups_on(std::int32_t rows, std::int32_t columns) const
 {
-    return {static_cast<std::uint64_t>(groups_in(columns)), static_cast<std::uint64_t>(rows)};
+    return {static_cast<std::uint64_t>(sum_groups(columns)), static_cast<std::uint64_t>(rows)};
 }
 
 Groups SolverBuffers::groups_of(const Call& call) const
@@ -116,9 +114,7 @@ Groups SolverBuffers::groups_of(const Call& call) const
     const ConstraintRows& rows = model_->hierarchy.constraints;
     switch (description_of(call.pass).size) {
         case PassSize::single: return {1, 1};
-        case PassSize::live:
-            return groups_on(1,
-                             level.rows > 1 ? level.rows : groups_in(std::max(level.columns, level.edges)));
+        case PassSize::live: return groups_on(1, std::max(level.node_units(), sum_groups(level.edges)));
         case PassSize::edge: return groups_on(1, level.edges);
         case PassSize::finer: return groups_on(1, finer.columns);
         case PassSize::row:

@@ -1,0 +1,164 @@
+// How a part of a pass is run: over rows, nodes or edges, in groups of which each leaves one part of a sum.
+// Part of SolverKernels (solver_kernels.hpp).
+
+/// Of meshes: over groups of nodes or of edges.
+void run_mesh(Pass pass, int begin, int end)
+{
+    using K = SolverKernels;
+    switch (pass) {
+        case Pass::mesh_springs: return rows<&K::mesh_springs>(pass, begin, end, level.edges);
+        case Pass::mesh_gather: return nodes<&K::mesh_gather>(pass, begin, end);
+        case Pass::mesh_coarsen_couplings:
+            return rows<&K::mesh_coarsen_couplings>(pass, begin, end, level.edges);
+        case Pass::mesh_coarsen_nodes: return nodes<&K::mesh_coarsen_nodes>(pass, begin, end);
+        case Pass::mesh_apply: return nodes<&K::mesh_apply>(pass, begin, end);
+        case Pass::mesh_smooth: return nodes<&K::mesh_smooth>(pass, begin, end);
+        case Pass::mesh_residual: return nodes<&K::mesh_residual>(pass, begin, end);
+        case Pass::mesh_restrict: return nodes<&K::mesh_restrict>(pass, begin, end);
+        case Pass::mesh_limits: return nodes<&K::mesh_limits>(pass, begin, end);
+        case Pass::mesh_marks: return rows<&K::mesh_marks>(pass, begin, end, level.edges);
+        case Pass::mesh_clear: clear_parts(begin, end); return nodes<&K::mesh_clear>(pass, begin, end);
+        case Pass::mesh_clear_edges: return rows<&K::mesh_clear_edges>(pass, begin, end, level.edges);
+        case Pass::mesh_live:
+            for (int group = begin; group < end; ++group) mesh_live(group);
+            return;
+        case Pass::mesh_multipliers: return nodes<&K::mesh_multipliers>(pass, begin, end);
+        case Pass::mesh_prolong: return finer_nodes<&K::mesh_prolong>(begin, end);
+        default: return;
+    }
+}
+template <auto kernel>
+void finer_nodes(int begin, int end)
+{
+    SolverKernels self = *this;
+    const int last = end * sum_columns < finer.columns ? end * sum_columns : finer.columns;
+    for (int column = begin * sum_columns; column < last; ++column) (self.*kernel)(finer_offset(0, column));
+}
+
+/// Of the solver paper: over groups of nodes or of rows, or over blocks of the prefix sum.
+void run_paper(Pass pass, int begin, int end)
+{
+    using K = SolverKernels;
+    const int count = whole(scalar(scalar_rows));
+    switch (pass) {
+        case Pass::paper_begin: return nodes<&K::paper_begin>(pass, begin, end);
+        case Pass::paper_springs: return rows<&K::paper_springs>(pass, begin, end, topology(rows_springs));
+        case Pass::paper_gather: return numbered_nodes<&K::paper_gather>(begin, end);
+        case Pass::paper_scan:
+            for (int block = begin; block < end; ++block) paper_scan(block);
+            return;
+        case Pass::paper_list: return rows<&K::paper_list>(pass, begin, end, topology(rows_constraints));
+        case Pass::paper_system: return rows<&K::paper_system>(pass, begin, end, count);
+        case Pass::paper_apply: return rows<&K::paper_apply>(pass, begin, end, count);
+        case Pass::paper_update: return rows<&K::paper_update>(pass, begin, end, count);
+        case Pass::paper_direction: return rows<&K::paper_direction>(pass, begin, end, count);
+        case Pass::paper_multipliers: return rows<&K::paper_multipliers>(pass, begin, end, count);
+        case Pass::paper_export: return nodes<&K::paper_export>(pass, begin, end);
+        case Pass::paper_step: return numbered_nodes<&K::paper_step>(begin, end);
+        default: return;
+    }
+}
+
+/// Rows in groups of `sum_columns`; those beyond the `count`-th row have nothing but empty sums.
+template <auto kernel>
+void rows(Pass pass, int begin, int end, int count)
+{
+    const SumSlots slots = sum_slots_of(pass);
+    SolverKernels self = *this;
+    for (int group = begin; group < end; ++group) {
+        const int first = group * sum_columns, last = first + sum_columns;
+        self.summed(slots, group, first, last < count ? last : count, [&](int k) { (self.*kernel)(k); });
+    }
+}
+template <auto kernel>
+void numbered_nodes(int begin, int end)
+{
+    for_each_row(begin, end, [&](int row, int first, int last) {
+        for (int column = first; column < last; ++column)
+            (this->*kernel)(level_offset(row, column), row * level.columns + column);
+    });
+}
+
+/// Calls function(row, first, last) for the columns of each row, or for those of groups of the only one.
+template <class Function>
+KERNEL void for_each_row(int begin, int end, const Function& function) const
+{
+    if (level.rows > 1)
+        for (int row = begin; row < end; ++row) function(row, 0, level.columns);
+    else if (begin < end)
+        function(0, begin * sum_columns,
+                 end * sum_columns < level.columns ? end * sum_columns : level.columns);
+}
+/// Calls function(row, first, last) for each group of columns that one part of a sum is made of.
+template <class Function>
+KERNEL void for_each_group(int begin, int end, const Function& function) const
+{
+    for_each_row(begin, end, [&](int row, int first, int last) {
+        for (int group = first; group < last; group += sum_columns)
+            function(row, group, group + sum_columns < last ? group + sum_columns : last);
+    });
+}
+template <auto kernel>
+void nodes(Pass pass, int begin, int end)
+{
+    SolverKernels self = *this;  // whose address nobody else knows
+    const SumSlots slots = sum_slots_of(pass);
+    if (slots.count > 0 && is_cloth_)  // nobody reads sums over coarser levels
+        return for_each_group(begin, end, [&](int row, int first, int last) {
+            self.template nodes_of_group<kernel>(slots, row, first, last);
+        });
+    for_each_row(begin, end, [&](int row, int first, int last) {
+        const int offset = level_offset(row, 0);
+        for (int column = first; column < last; column += Lanes<T>::count) (self.*kernel)(offset + column);
+    });
+}
+template <auto kernel>
+KERNEL void nodes_of_group(SumSlots slots, int row, int begin, int end)
+{
+    const int offset = level_offset(row, 0);
+    summed(slots, part_of(row, begin), begin, end, [&](int column) { (this->*kernel)(offset + column); });
+}
+/// The parts of sums that passes of ACAD's solve leave: of rows that are not live nobody writes them.
+void clear_parts(int begin, int end) const
+{
+    if (!is_cloth_) return;
+    for_each_group(begin, end, [&](int row, int first, int) {
+        const int part = part_of(row, first);
+        for (int slot = 0; slot < sum_active; ++slot)
+            if (part < context.part_counts[slot])
+                context.parts[slot * context.part_stride + part] = Number(0);
+    });
+}
+int part_of(int row, int column) const { return row * sum_groups(level.columns) + column / sum_columns; }
+/// A group of sum_columns, of which there may be fewer or none left, and the part of the sums that it
+/// makes.
+template <class Function>
+KERNEL void summed(SumSlots slots, int part, int first, int last, const Function& kernel)
+{
+    constexpr int packs = sum_columns / Lanes<T>::count;
+    T left[most_sums][packs];
+    for (int k = 0; k < packs; ++k) {
+        for (T& sum : sums) sum = spread(Number(0));
+        const int column = first + k * Lanes<T>::count;
+        if (column < last) kernel(column);
+        for (int slot = 0; slot < most_sums; ++slot) left[slot][k] = sums[slot];
+    }
+    for (unsigned slot = 0; slot < slots.count; ++slot) {
+        T* values = left[slot];
+        for (int width = packs / 2; width > 0; width /= 2)
+            for (int k = 0; k < width; ++k) values[k] = values[k] + values[k + width];
+        if (part < context.part_counts[slots.first + slot])
+            context.parts[int(slots.first + slot) * context.part_stride + part] = Lanes<T>::sum(values[0]);
+    }
+}
+
+template <auto kernel>
+void cells(int begin, int end, int rows, int columns)
+{
+    SolverKernels self = *this;
+    for (int row = begin; row < end && row < rows; ++row)
+        for (int column = 0; column < columns; column += Lanes<T>::count) {
+            self.inside_ = Lanes<T>::first_lanes(level.columns - column);
+            (self.*kernel)(level_offset(row, column), finer_offset(2 * row, 2 * column));
+        }
+}
