@@ -153,9 +153,9 @@ void sheet_steps(const SheetStretch& s)
     constexpr std::ptrdiff_t reach = 2;        // rows that a spring spans
     constexpr std::ptrdiff_t lag = reach + 1;  // of a step behind the one before
     const auto stride = static_cast<std::ptrdiff_t>(s.steps->layout->stride);
+    const std::size_t size = SheetStretch::carried_size(s.steps->layout->stride);
     const auto carried = [&](std::size_t step, std::ptrdiff_t row) {
-        float* x = s.carried + SheetStretch::carried_size(s.steps->layout->stride) * step +
-                   3 * stride * (row & 1) + NodeLayout::pad;
+        float* x = s.carried + size * step + 3 * stride * (row & 1) + NodeLayout::pad;
         return Vectors{x, x + stride, x + 2 * stride};
     };
     std::ptrdiff_t first = s.rows[0].begin, end = s.rows[0].end;
@@ -163,9 +163,8 @@ void sheet_steps(const SheetStretch& s)
         const std::ptrdiff_t shift = lag * static_cast<std::ptrdiff_t>(k);
         if (s.rows[k].begin - reach + shift < first) first = s.rows[k].begin - reach + shift;
         if (s.rows[k].end + shift > end) end = s.rows[k].end + shift;
-        for (std::ptrdiff_t row = 0; row < 2; ++row)
-            for (std::ptrdiff_t column = -width; column < stride - 2 * width; column += width)
-                store(carried(k, row), column, nothing());
+        // All of it, whatever the width: what a call before left here would be added to this one's nodes.
+        for (std::size_t i = 0; i < size; ++i) s.carried[size * k + i] = 0;
     }
     for (std::ptrdiff_t front = first; front < end; ++front)
         for (std::size_t k = 0; k < s.count; ++k) {
