@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "backend/cpu/kernels.hpp"
@@ -242,6 +243,40 @@ TEST(MeasureTree, LevelsHoldEveryBlock)
         EXPECT_EQ(tree.levels.back().count, 1u);
         EXPECT_EQ(tree.value_count, first);
     }
+}
+
+TEST(Differences, AreInfiniteForWhatIsNotANumberOrNotThere)
+{
+    const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+    using Numbers = std::vector<float>;
+    EXPECT_EQ(test::largest_difference(Numbers{1, 2}, Numbers{1, 2.5f}), 0.5);
+    for (const auto& [a, b] : {std::pair<Numbers, Numbers>{{1, nan}, {1, nan}},
+                               {{nan, 1}, {0, 1}},
+                               {{1, 2}, {1, nan}},
+                               {{inf}, {inf}},
+                               {{1, 2}, {1}},
+                               {{}, {}}}) {
+        EXPECT_TRUE(std::isinf(test::largest_difference(a, b)));
+        EXPECT_GT(test::bit_differences(a, b).count, 0u);
+    }
+    EXPECT_EQ(test::bit_differences(Numbers{1, 0}, Numbers{1, 0}).count, 0u);
+    EXPECT_EQ(test::bit_differences(Numbers{1, 0.0f}, Numbers{1, -0.0f}).first, 1u);
+}
+
+TEST(Differences, ExtremesKeepWhatIsNotANumber)
+{
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const std::vector<double>& all : {std::vector<double>{}, {nan}, {1, nan}, {nan, 1}, {1, nan, 2}}) {
+        test::Largest largest;
+        test::Smallest smallest;
+        for (const double a : all) largest.add(a), smallest.add(a);
+        EXPECT_TRUE(std::isnan(largest.value()) && std::isnan(smallest.value())) << all.size();
+    }
+    test::Largest largest;
+    test::Smallest smallest;
+    for (const double a : {-3.0, -1.0, -2.0}) largest.add(a), smallest.add(a);
+    EXPECT_EQ(largest.value(), -1);
+    EXPECT_EQ(smallest.value(), -3);
 }
 
 TEST(Denormals, NeverReachTheState)
