@@ -1,0 +1,28 @@
+# Tests on other devices than the machine's own: under the limits of others (limits_layer), and on a second driver.
+
+# The tests of passes, on sizes that are small and between them run every pass; for other devices and drivers.
+set(pass_test_filter */sheet_17x16:*/sheet_3x1023:*/list_31x33:*/mesh_31x33:*/graded_mesh_17x13:*/explicit_31x33:*/runge_kutta_mesh:Denormals.*)
+set(body_pass_test_filter */box_26_rich:*/sphere_252_rich:*/blob_1000:*/springs_alone:*/springs_by_list)
+set(solver_pass_test_filter
+    */sheet_17x16:*/sheet_5x300:*/sheet_jacobi:*/sheet_plain:*/mesh_17x13:*/graded_mesh:*/acad_sheet:*/acad_mesh:*/paper_mesh:*/paper_acad)
+set(sheet_steps_test_filter */33x129:*/131x7:SheetDispatches.*)
+set(programs pass_test body_pass_test solver_pass_test sheet_steps_test)
+
+foreach(device quest3 mali_g78 mali_g57 adreno_610 apple_m1 iris_xe)
+    foreach(program IN LISTS programs)
+        set(test limits.${device}.${program})
+        add_test(NAME ${test} COMMAND ${program} --gtest_filter=${${program}_filter})
+        set_tests_properties(${test} PROPERTIES TIMEOUT 1200 LABELS all ENVIRONMENT
+            "PLIANT_TEST_DEVICE=${device};PLIANT_EXPECT_DEVICE=${device} over llvmpipe;VK_LOADER_DRIVERS_SELECT=*lvp*;VK_LAYER_PATH=${limits_layer_path};VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation:VK_LAYER_PLIANT_limits")
+    endforeach()
+endforeach()
+
+foreach(program IN LISTS programs)
+    add_test(NAME swiftshader.${program} COMMAND ${PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/second_driver_test.py tests
+        $<TARGET_FILE:${program}> --gtest_filter=${${program}_filter})
+    set_tests_properties(swiftshader.${program} PROPERTIES TIMEOUT 1800 LABELS all SKIP_RETURN_CODE 77)
+endforeach()
+# Scenes with few nodes and few frames: it is slow.
+add_test(NAME swiftshader.scenes COMMAND ${PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/second_driver_test.py scenes
+    $<TARGET_FILE:pliant_tool> parity:2 wind_list:1)
+set_tests_properties(swiftshader.scenes PROPERTIES TIMEOUT 1800 LABELS all SKIP_RETURN_CODE 77)
