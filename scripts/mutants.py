@@ -231,7 +231,7 @@ class Tests:
             file = Path(entry["file"])
             if "tests" not in file.parts or not file.is_file():
                 continue
-            target = re.search(r"CMakeFiles/([^/]+)\.dir/", entry["output"])
+            target = re.search(r" -o \S*?CMakeFiles/([^/ ]+)\.dir/", entry["command"])
             for suite in re.findall(r"^TEST(?:_[FP])?\(\s*(\w+)\s*,", file.read_text(), re.M):
                 self.suites.setdefault(suite, set()).add((target[1], str(file.relative_to(SOURCE))))
 
