@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "backend/vulkan/barrier_plan.hpp"
 #include "backend/vulkan/cloth_buffers.hpp"
 #include "backend/vulkan/pass_pipelines.hpp"
 #include "backend/vulkan/segments.hpp"
@@ -51,45 +52,6 @@ struct Recording {
     vk::raii::CommandBuffer commands{nullptr};
     vk::raii::QueryPool queries{nullptr};
     std::vector<Stretch> stretches;
-};
-
-/// Puts barriers where the table of passes asks for them: before a call that touches what an earlier one
-/// wrote, or writes what an earlier one read.
-class BarrierPlan {
-public:
-    bool needed_before(const Call& call)
-    {
-        const PassDescription& pass = description_of(call.pass);
-        std::set<Key> reads, writes;
-        for (const Resource r : pass.reads) reads.insert(key(call, r));
-        for (const Resource r : pass.writes) writes.insert(key(call, r));
-        bool hazard = false;
-        for (const Key& k : reads) hazard |= written_.count(k) > 0;
-        for (const Key& k : writes) hazard |= written_.count(k) > 0 || read_.count(k) > 0;
-        if (hazard) {
-            written_.clear();
-            read_.clear();
-        }
-        read_.merge(reads);
-        written_.merge(writes);
-        return hazard;
-    }
-
-private:
-    using Key = std::pair<std::uint32_t, std::uint32_t>;  // cloth, physical buffer
-    static Key key(const Call& call, Resource resource)
-    {
-        // The two copies of the state by their place, not by their role.
-        constexpr std::uint32_t copies = 100;
-        switch (resource) {
-            case Resource::position: return {call.cloth, copies + call.parity};
-            case Resource::next_position: return {call.cloth, copies + 1 - call.parity};
-            case Resource::velocity: return {call.cloth, copies + 2 + call.parity};
-            case Resource::next_velocity: return {call.cloth, copies + 3 - call.parity};
-            default: return {call.cloth, static_cast<std::uint32_t>(resource)};
-        }
-    }
-    std::set<Key> written_, read_;
 };
 
 std::shared_ptr<Device> device_for(const SimulationOptions& options)
