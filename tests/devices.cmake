@@ -11,7 +11,7 @@ set(programs pass_test body_pass_test solver_pass_test sheet_steps_test)
 foreach(device quest3 mali_g78 mali_g57 adreno_610 apple_m1 iris_xe)
     foreach(program IN LISTS programs)
         set(test limits.${device}.${program})
-        add_test(NAME ${test} COMMAND ${program} --gtest_filter=${${program}_filter})
+        add_test(NAME ${test} COMMAND pliant_tests ${program} --gtest_filter=${${program}_filter})
         set_tests_properties(${test} PROPERTIES TIMEOUT 1200 LABELS all ENVIRONMENT
             "PLIANT_TEST_DEVICE=${device};PLIANT_EXPECT_DEVICE=${device} over llvmpipe;VK_LOADER_DRIVERS_SELECT=*lvp*;VK_LAYER_PATH=${limits_layer_path};VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation:VK_LAYER_PLIANT_limits")
     endforeach()
@@ -19,7 +19,7 @@ endforeach()
 
 foreach(program IN LISTS programs)
     add_test(NAME swiftshader.${program} COMMAND ${PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/second_driver_test.py tests
-        $<TARGET_FILE:${program}> --gtest_filter=${${program}_filter})
+        $<TARGET_FILE:pliant_tests> ${program} --gtest_filter=${${program}_filter})
     set_tests_properties(swiftshader.${program} PROPERTIES TIMEOUT 1800 LABELS all SKIP_RETURN_CODE 77)
 endforeach()
 # Scenes with few nodes and few frames: it is slow.

@@ -10,6 +10,7 @@
 
 #include "backend/vulkan/shader_code.hpp"
 #include "solve/pass.hpp"
+#include "test_paths.hpp"
 
 namespace pliant {
 namespace {
@@ -101,7 +102,7 @@ TEST(ComputeShaders, OfFastMathUseTheDevicesInverseSquareRootAndMayBeContracted)
 
 TEST(Laws, AreGlslInDoubleToo)
 {
-    const std::string root = PLIANT_SOURCE_DIR;
+    const std::string root = test::project_folder;
     EXPECT_EQ(std::system(("glslc --target-env=vulkan1.1 -Werror -DREAL64 -I " + root +
                            "/src/laws -o /dev/null " + root + "/tests/laws_real64.comp")
                               .c_str()),

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstring>
 
+#include "backend/vulkan/float4.hpp"
+
 namespace pliant::vulkan {
 namespace {
 
@@ -15,9 +17,6 @@ vk::DescriptorType type_of(Binding binding)
     return is_uniform(binding) ? vk::DescriptorType::eUniformBuffer : vk::DescriptorType::eStorageBuffer;
 }
 
-struct Float4 {
-    float x = 0, y = 0, z = 0, w = 0;
-};
 Float4 float4(Vector3<float> a, float w = 0) { return {a.x, a.y, a.z, w}; }
 Float4 float4(Vec3 a, float w) { return {a.x, a.y, a.z, w}; }
 

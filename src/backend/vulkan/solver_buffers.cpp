@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "backend/host/solver_state.hpp"
+#include "backend/vulkan/float4.hpp"
 
 namespace pliant::vulkan {
 namespace {
@@ -18,10 +19,6 @@ constexpr std::size_t level_numbers = 24;   ///< integers that a level takes the
 constexpr std::size_t most_slots = 16;
 static_assert(sum_slot_count <= most_slots);
 static_assert(group_columns == sum_columns);
-
-struct Float4 {
-    float x = 0, y = 0, z = 0, w = 0;
-};
 
 // The order in which level_at() of shaders/solver.glsl reads them.
 static_assert(sizeof(SolverLevel) <= level_numbers * sizeof(std::int32_t));

@@ -7,6 +7,7 @@
 
 #include "backend/vulkan/barrier_plan.hpp"
 #include "backend/vulkan/cloth_buffers.hpp"
+#include "backend/vulkan/float4.hpp"
 #include "backend/vulkan/pass_pipelines.hpp"
 #include "backend/vulkan/segments.hpp"
 #include "backend/vulkan/sheet_tile.hpp"
@@ -17,10 +18,6 @@ namespace pliant {
 namespace {
 
 using namespace vulkan;
-
-struct Float4 {
-    float x = 0, y = 0, z = 0, w = 0;
-};
 
 /// As collider_at() of shaders/colliders.glsl.
 using ColliderRow = std::array<Float4, 8>;
