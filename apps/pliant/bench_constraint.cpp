@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench_command.hpp"
+#include "pliant/extremes.hpp"
 #include "simulation/linear_benchmark.hpp"
 
 namespace pliant::tool {
@@ -27,7 +28,7 @@ std::string square(std::uint32_t n) { return std::to_string(n) + " x " + std::to
 
 void remember_stretch(const Simulation& simulation, double& stretch)
 {
-    stretch = std::max(stretch, simulation.report().measures.max_stretch);
+    stretch = larger(stretch, simulation.report().measures.max_stretch);
 }
 
 // --- linear systems -------------------------------------------------------------------------------
@@ -182,7 +183,7 @@ Fall let_fall(Simulation& simulation, std::uint32_t n, int frames)
         remember_stretch(simulation, fall.stretch);
         if (k > frames - 60) {
             remember_stretch(simulation, fall.stretch_late);
-            fall.speed_late = std::max(fall.speed_late, m.max_speed);
+            fall.speed_late = larger(fall.speed_late, m.max_speed);
         }
         if (k % 15 == 0 && k <= 45) {
             const auto x = simulation.positions();

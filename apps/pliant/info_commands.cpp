@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "backend/vulkan/device_info.hpp"
 #include "commands.hpp"
 #include "info_report.hpp"
 #include "pliant/version.hpp"
@@ -28,10 +29,14 @@ int info_command(const InfoOptions& options)
         std::printf("--backend %s%s: %s (%s), %s\n", name_of(device.backend), index.c_str(),
                     device.name.c_str(), device.kind.c_str(), device.details.c_str());
     }
-    const bool vulkan = std::any_of(devices.begin(), devices.end(), [](const DeviceListing& device) {
+    const auto refused = vulkan::list_refused_devices();
+    for (const vulkan::PhysicalDeviceInfo& device : refused)
+        std::printf("refused: %s (%s): %s\n", device.name.c_str(), device.kind.c_str(),
+                    device.refusal.c_str());
+    const bool usable = std::any_of(devices.begin(), devices.end(), [](const DeviceListing& device) {
         return device.backend == Backend::vulkan;
     });
-    if (!vulkan)
+    if (!usable && refused.empty())
         std::printf(
             "--backend vulkan: no driver was found, so there are no pictures either; on Debian, install "
             "mesa-vulkan-drivers\n");

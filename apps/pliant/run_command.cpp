@@ -80,7 +80,7 @@ public:
         // Nodes on their way to infinity cannot be seen, and software rasterisers take minutes over their
         // triangles.
         constexpr double fastest_drawn = 1e6;  // m/s
-        if (!wanted || simulation_.report().measures.max_speed > fastest_drawn) return;
+        if (!wanted || !(simulation_.report().measures.max_speed <= fastest_drawn)) return;
         const Image& image = painter_->draw();
         for (const auto& recorder : recorders_)
             if (recorder->wants(frame, last)) recorder->add(image, frame);
