@@ -17,12 +17,19 @@ foreach(device quest3 mali_g78 mali_g57 adreno_610 apple_m1 iris_xe)
     endforeach()
 endforeach()
 
+add_test(NAME limits.refusals COMMAND ${PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/limits_refusals_test.py $<TARGET_FILE:pliant_tool>
+    ${limits_layer_path})
+set_tests_properties(limits.refusals PROPERTIES TIMEOUT 600)
+
 foreach(program IN LISTS programs)
     add_test(NAME swiftshader.${program} COMMAND ${PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/second_driver_test.py tests
         $<TARGET_FILE:pliant_tests> ${program} --gtest_filter=${${program}_filter})
     set_tests_properties(swiftshader.${program} PROPERTIES TIMEOUT 1800 LABELS all SKIP_RETURN_CODE 77)
 endforeach()
-# Scenes with few nodes and few frames: it is slow.
+# Every scene, on few frames and where it is large on few nodes: it is slow.
 add_test(NAME swiftshader.scenes COMMAND ${PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/second_driver_test.py scenes
-    $<TARGET_FILE:pliant_tool> parity:2 wind_list:1)
+    $<TARGET_FILE:pliant_tool> parity:2 flag:1 wind_list:1 falling_sheet:5 chain:2 hanging:1 incline_rest:2 incline_slide:2
+    moving_sphere:2 box_capsule:1 "cloth_sphere:1:cloths[0].sheet.rows=33:cloths[0].sheet.columns=47" hanging_constraint:1
+    tablecloth:1 paper_fig10:2 paper_fig14:1 paper_fig15:1 twist:2 free_fall:4 inflate:1 local_deform:1 many:1 press:3
+    stiffness_sweep:3)
 set_tests_properties(swiftshader.scenes PROPERTIES TIMEOUT 1800 LABELS all SKIP_RETURN_CODE 77)

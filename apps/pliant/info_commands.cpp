@@ -3,6 +3,7 @@
 
 #include "backend/vulkan/device_info.hpp"
 #include "commands.hpp"
+#include "info_report.hpp"
 #include "pliant/version.hpp"
 
 namespace pliant::tool {
@@ -17,8 +18,9 @@ int list_command()
     return 0;
 }
 
-int info_command()
+int info_command(const InfoOptions& options)
 {
+    if (!options.report_file.empty()) return write_machine_report(options.report_file);
     std::printf("pliant %s\n", PLIANT_VERSION);
     const auto devices = list_devices();
     for (const DeviceListing& device : devices) {

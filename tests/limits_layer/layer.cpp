@@ -9,6 +9,7 @@
 #include <vulkan/vk_layer.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -39,11 +40,6 @@ bool choose_device()
     return chosen;
 }
 
-bool float_controls_by_extension()
-{
-    return test_device().floats.offered && test_device().api_version < VK_API_VERSION_1_2;
-}
-
 /// What lies below an instance. The functions are asked for when it is made: later the loader would answer
 /// with the uppermost layer's.
 struct Instance {
@@ -66,6 +62,7 @@ struct Device {
     PFN_vkGetDeviceProcAddr next = nullptr;
     const Instance* instance = nullptr;
     std::map<VkDescriptorSetLayout, BuffersOfStages> set_layouts;
+    std::atomic<std::uint32_t> allocations{0};
 
     template <class Function>
     Function get(const char* name) const
@@ -212,7 +209,7 @@ bool is_reported(const char* extension)
 {
     const auto is = [&](const char* name) { return std::strcmp(extension, name) == 0; };
     return is(VK_KHR_SWAPCHAIN_EXTENSION_NAME) ||
-           (is(VK_KHR_SHADER_FLOAT_CONTROLS_EXTENSION_NAME) && float_controls_by_extension()) ||
+           (is(VK_KHR_SHADER_FLOAT_CONTROLS_EXTENSION_NAME) && test_device().floats.offered) ||
            (is(VK_KHR_PORTABILITY_SUBSET_EXTENSION_NAME) && test_device().portability);
 }
 
@@ -508,6 +505,27 @@ VKAPI_ATTR VkResult VKAPI_CALL create_pipeline_layout(VkDevice device, const VkP
     return of.get<PFN_vkCreatePipelineLayout>("vkCreatePipelineLayout")(device, info, allocator, layout);
 }
 
+VKAPI_ATTR VkResult VKAPI_CALL allocate_memory(VkDevice device, const VkMemoryAllocateInfo* info,
+                                               const VkAllocationCallbacks* allocator, VkDeviceMemory* memory)
+{
+    Device& of = device_of(device);
+    if (++of.allocations > test_device().allocations) {
+        --of.allocations;
+        return VK_ERROR_TOO_MANY_OBJECTS;  // as drivers do
+    }
+    const VkResult result = of.get<PFN_vkAllocateMemory>("vkAllocateMemory")(device, info, allocator, memory);
+    if (result != VK_SUCCESS) --of.allocations;
+    return result;
+}
+
+VKAPI_ATTR void VKAPI_CALL free_memory(VkDevice device, VkDeviceMemory memory,
+                                       const VkAllocationCallbacks* allocator)
+{
+    Device& of = device_of(device);
+    of.get<PFN_vkFreeMemory>("vkFreeMemory")(device, memory, allocator);
+    if (memory) --of.allocations;
+}
+
 // --- the loader's way in
 // -------------------------------------------------------------------------------------------
 
@@ -540,6 +558,8 @@ PFN_vkVoidFunction find_hook(const char* name, bool of_device_only)
         {"vkCreateDescriptorSetLayout", plain(create_set_layout), true},
         {"vkDestroyDescriptorSetLayout", plain(destroy_set_layout), true},
         {"vkCreatePipelineLayout", plain(create_pipeline_layout), true},
+        {"vkAllocateMemory", plain(allocate_memory), true},
+        {"vkFreeMemory", plain(free_memory), true},
     };
     for (const Hook& hook : hooks)
         if ((hook.of_device || !of_device_only) && std::strcmp(hook.name, name) == 0) return hook.function;
