@@ -46,7 +46,7 @@ SOURCE, BUILD, RESULTS = WORK / "source", WORK / "build", WORK / "results.json"
 CODE = (".cpp", ".hpp", ".inl", ".law.glsl", ".kernel.glsl")  # what can be a branch of one program
 SHARED = ("src/laws/", "src/kernels/")  # texts of shaders, too
 OPTIONS = ["-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG -w",
-           "-DPLIANT_WARNINGS_AS_ERRORS=OFF", "-DPLIANT_JOINED=OFF", f"-DPLIANT_SHARED_DIR={ROOT.parent / 'shared'}"]
+           "-DPLIANT_WARNINGS_AS_ERRORS=OFF", "-DPLIANT_JOINED=OFF"]
 LEAST_TIMEOUT, TIMES_LONGER = 120, 20  # s, and against what the test takes without the mutant
 DECLARATION = "extern const int pliant_mutant;\n"
 DEFINITION = """#include <cstdlib>

@@ -12,6 +12,7 @@
 #include <vulkan/vulkan_raii.hpp>
 
 #include "limits_layer/devices.hpp"
+#include "test_paths.hpp"
 
 namespace pliant::limits {
 namespace {
@@ -58,7 +59,7 @@ class Opened {
 public:
     explicit Opened(const char* name, const Wishes& wishes = {})
         : layer_("VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation:VK_LAYER_PLIANT_limits"),
-          path_("VK_LAYER_PATH", PLIANT_LIMITS_LAYER_PATH),
+          path_("VK_LAYER_PATH", test::limits_layer_path),
           device_name_("PLIANT_TEST_DEVICE", name)
     {
         const vk::ApplicationInfo application("limits_layer_test", 1, "", 1, VK_API_VERSION_1_3);
