@@ -71,7 +71,7 @@ class Mutant:
         places = [m.start() for m in re.finditer(re.escape(frame), text)]
         which = self.table.get("which", 1)
         if not places or (len(places) > 1 and "which" not in self.table) or which > len(places):
-            sys.exit(f"{self.name}: its text is {len(places)} times in {self.file}")
+            raise LookupError(f"{self.name}: its text is {len(places)} times in {self.file}")
         return places[which - 1] + (within.index(self.old) if within else 0)
 
     def replaced(self, text, by):
@@ -100,6 +100,14 @@ def load(patterns):
     for path in sorted((ROOT / "tests/mutants").glob("*.toml")):
         for key, table in tomllib.loads(path.read_text()).items():
             mutants.append(Mutant(len(mutants) + 1, path.stem, key, table))
+    lost = []
+    for m in mutants:
+        try:
+            m.place((ROOT / m.file).read_text())
+        except (LookupError, OSError) as error:
+            lost.append(str(error))
+    if lost:
+        sys.exit("\n".join(lost))
     chosen = [m for m in mutants if not patterns or any(
         m.floor == p or fnmatch.fnmatch(m.name, p) for p in patterns)]
     if not chosen:
@@ -111,11 +119,9 @@ def with_branches(mutants):
     """The texts that mutants break, with all of them as branches."""
     texts = {}
     for m in mutants:
-        original = (ROOT / m.file).read_text()
-        m.place(original)
         if not m.is_branch:
             continue
-        text = texts.get(m.file, original)
+        text = texts.get(m.file) or (ROOT / m.file).read_text()
         # Of several mutants of the same text each is a branch of the one before.
         frame = m.table.get("within", "").strip() or m.old
         if frame not in text:
@@ -433,7 +439,6 @@ def main():
     mutants, chosen = load(options.only)
     if options.list:
         for m in chosen:
-            m.place((ROOT / m.file).read_text())
             say(f"{m.name}: {m.breaks} ({m.file})")
         return 0
     whole = Run(options, mutants, chosen)

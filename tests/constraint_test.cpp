@@ -207,13 +207,16 @@ TEST(Constraint, MomentumGrowsByTheWeightAlone)
     Scene scene = hanging_sheet(7);
     scene.cloth_handle(0)->pins.clear();
     scene.cloth_handle(0)->damping = 0;
-    scene.cloth_handle(0)->springs.structural.compliance = 1e-4;
+    scene.cloth_handle(0)->springs.structural.compliance = scene.cloth_handle(0)->springs.shear.compliance =
+        1e-4;
+    scene.newton_multigrid.resists =
+        Resists::both;  // steps of slack threads are hardly ever solved to the end
     converge(scene);
     Simulation simulation(scene, test::on(Backend::reference));
     // Every node its own way, so that constraints work against each other.
     State state = simulation.state();
     std::mt19937 engine(4);
-    std::uniform_real_distribution<float> unit(-1, 1);
+    std::uniform_real_distribution<float> unit(-0.3f, 0.3f);
     for (Vec3& v : state.cloths[0].velocities)
         v = {0.3f + unit(engine), -0.2f + unit(engine), 0.1f + unit(engine)};
     simulation.set_state(state);
@@ -230,6 +233,7 @@ TEST(Constraint, MomentumGrowsByTheWeightAlone)
     const Moments before = moments(state.cloths[0].velocities);
     for (int frame = 0; frame < 12; ++frame) simulation.advance(1 / 60.0);
     const Moments after = moments(simulation.velocities());
+    EXPECT_LE(simulation.report().solver.residual_max, 1e-6);
     // What a step leaves unsolved, r . A^-1 r <= 1e-12 of the load m g^2 dt^2, can push the sheet as a whole,
     // which feels nothing but inertia, by 1e-6 g dt at most: 2e-6 m/s in these 12 frames. The test of the
     // solver looks at its last step, and not at what is left: hence twice that.

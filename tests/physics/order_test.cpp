@@ -23,10 +23,13 @@ bool stands(Scene scene, double step, int steps = 500)
     Simulation simulation(scene, test::on(Backend::cpu));
     const auto x = simulation.positions();
     const std::vector<Vec3> start(x.begin(), x.end());
-    for (int n = 0; n < steps && simulation.report().finite; ++n) simulation.advance(step);
-    if (!simulation.report().finite) return false;
-    EXPECT_GT(test::largest_difference(simulation.positions(), start), 1e-6) << "it has not moved";
-    return simulation.report().measures.max_speed < 1;
+    for (int n = 0; n < steps && simulation.report().finite; ++n) {
+        simulation.advance(step);
+        if (n == 10) {
+            EXPECT_GT(test::largest_difference(simulation.positions(), start), 1e-6) << "it does not move";
+        }
+    }
+    return simulation.report().finite && simulation.report().measures.max_speed < 1;
 }
 
 TEST(Stability, OfAHangingSheetIsAsTheEstimateSays)

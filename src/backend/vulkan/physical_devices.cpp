@@ -134,8 +134,8 @@ PhysicalDeviceInfo describe(const vk::raii::PhysicalDevice& physical)
     info.refusal = refusal_of(physical);
     if (properties.apiVersion < least_version) return info;  // and knows no more than that
     using Properties = vk::PhysicalDeviceProperties2;
-    using Memory = vk::PhysicalDeviceMaintenance3Properties;
-    info.max_allocation = physical.getProperties2<Properties, Memory>().get<Memory>().maxMemoryAllocationSize;
+    using Limits = vk::PhysicalDeviceMaintenance3Properties;
+    info.max_allocation = physical.getProperties2<Properties, Limits>().get<Limits>().maxMemoryAllocationSize;
     if (offers(physical, VK_KHR_SHADER_FLOAT_CONTROLS_EXTENSION_NAME)) {
         using Controls = vk::PhysicalDeviceFloatControlsPropertiesKHR;
         const auto controls = physical.getProperties2<Properties, Controls>().get<Controls>();

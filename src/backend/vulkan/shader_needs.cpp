@@ -17,12 +17,14 @@ constexpr std::uint32_t entry_point = 15, execution_mode = 16, type_int = 21, ty
                         variable = 59, decorate = 71, member_decorate = 72, composite_extract = 81, add = 128,
                         subtract = 130, multiply = 132, divide = 134;
 }
+namespace spirv {
 constexpr std::uint32_t local_size = 17;  // execution mode
 constexpr std::uint32_t spec_id = 1, array_stride = 6, built_in = 11, binding = 33,
                         offset = 35;           // decorations
 constexpr std::uint32_t work_group_size = 25;  // built-in
 constexpr std::uint32_t uniform = 2, work_group = 4, push_constant = 9,
                         storage_buffer = 12;  // storage classes
+}  // namespace spirv
 
 using Words = std::span<const std::uint32_t>;
 
@@ -57,13 +59,13 @@ public:
             const std::uint32_t type = pointed_.at(variable.pointer);
             const auto place = bindings_.find(id);
             switch (variable.storage) {
-                case storage_buffer: needs.storage_buffers.push_back(place->second); break;
-                case uniform:
+                case spirv::storage_buffer: needs.storage_buffers.push_back(place->second); break;
+                case spirv::uniform:
                     needs.uniform_buffers.push_back(place->second);
                     needs.uniform_range = std::max(needs.uniform_range, size_of(type).bytes);
                     break;
-                case push_constant: needs.push_constants += size_of(type).bytes; break;
-                case work_group: needs.shared_memory += size_of(type).bytes; break;
+                case spirv::push_constant: needs.push_constants += size_of(type).bytes; break;
+                case spirv::work_group: needs.shared_memory += size_of(type).bytes; break;
                 default: break;
             }
         }
@@ -88,16 +90,17 @@ private:
         switch (operation) {
             case op::entry_point: entry_ = words[2]; break;
             case op::execution_mode:
-                if (words[2] == local_size) group_size_ = {words[3], words[4], words[5]};
+                if (words[2] == spirv::local_size) group_size_ = {words[3], words[4], words[5]};
                 break;
             case op::decorate:
-                if (words[2] == binding) bindings_[words[1]] = words[3];
-                if (words[2] == spec_id) spec_ids_[words[1]] = words[3];
-                if (words[2] == array_stride) strides_[words[1]] = words[3];
-                if (words[2] == built_in && words[3] == work_group_size) group_size_id_ = words[1];
+                if (words[2] == spirv::binding) bindings_[words[1]] = words[3];
+                if (words[2] == spirv::spec_id) spec_ids_[words[1]] = words[3];
+                if (words[2] == spirv::array_stride) strides_[words[1]] = words[3];
+                if (words[2] == spirv::built_in && words[3] == spirv::work_group_size)
+                    group_size_id_ = words[1];
                 break;
             case op::member_decorate:
-                if (words[3] == offset) offsets_[{words[1], words[2]}] = words[4];
+                if (words[3] == spirv::offset) offsets_[{words[1], words[2]}] = words[4];
                 break;
             case op::type_int:
             case op::type_float: sizes_[words[1]] = {words[2] / 8, words[2] / 8}; break;
