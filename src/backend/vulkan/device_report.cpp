@@ -1,5 +1,7 @@
 #include "backend/vulkan/device_report.hpp"
 
+#include "backend/vulkan/physical_devices.hpp"
+
 namespace pliant::vulkan {
 namespace {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "backend/vulkan/physical_devices.hpp"
+#include "backend/vulkan/device_info.hpp"
 
 namespace pliant::vulkan {
 
