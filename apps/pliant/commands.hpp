@@ -30,7 +30,7 @@ void check_outputs(const RunOptions& options, const Scene& scene);
 
 int run_command(const RunOptions& options);
 int list_command();
-int info_command();
+int info_command(bool all);  ///< with what is there for tests, too
 
 struct CheckOptions {
     std::string scene_or_mesh;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "backend/cpu/kernels.hpp"
 #include "commands.hpp"
 #include "pliant/version.hpp"
 
@@ -16,7 +17,7 @@ int list_command()
     return 0;
 }
 
-int info_command()
+int info_command(bool all)
 {
     std::printf("pliant %s\n", PLIANT_VERSION);
     const auto devices = list_devices();
@@ -26,6 +27,9 @@ int info_command()
         std::printf("--backend %s%s: %s (%s), %s\n", name_of(device.backend), index.c_str(),
                     device.name.c_str(), device.kind.c_str(), device.details.c_str());
     }
+    if (all)
+        for (const cpu::Kernels* kernels : cpu::test_kernels())
+            std::printf("--backend cpu --instruction-set %s: for tests alone, slow\n", kernels->name);
     const bool vulkan = std::any_of(devices.begin(), devices.end(), [](const DeviceListing& device) {
         return device.backend == Backend::vulkan;
     });

@@ -321,7 +321,9 @@ int dispatch(int argc, char** argv)
     ReproduceOptions reproduce_options;
     add_reproduce(app, reproduce_options);
     app.add_subcommand("list", "The built-in scenes");
-    app.add_subcommand("info", "Backends and devices of this machine, with their limits");
+    bool info_of_all = false;
+    app.add_subcommand("info", "Backends and devices of this machine, with their limits")
+        ->add_flag("--all", info_of_all, "With the instruction sets that are there for tests alone");
     CheckOptions check_options;
     add_check(app, check_options);
     ViewOptions view_options;
@@ -345,7 +347,7 @@ int dispatch(int argc, char** argv)
     if (app.got_subcommand("view")) return view_command(view_options);
     if (app.got_subcommand("render")) return render_command(render_options);
     if (app.got_subcommand("list")) return list_command();
-    if (app.got_subcommand("info")) return info_command();
+    if (app.got_subcommand("info")) return info_command(info_of_all);
     return check_command(check_options);
 }
 
