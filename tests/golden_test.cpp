@@ -50,8 +50,7 @@ std::vector<Case>& cases()
         for (const Json& entry : Json::parse(file)) {
             Case c{entry.at("name"), entry.at("scene"), {}, entry.value("every_way", false), {}};
             const Json set = entry.value("set", Json::object());
-            for (const auto& [path, value] : set.items())
-                c.overrides.push_back(path + "=" + value.dump());
+            for (const auto& [path, value] : set.items()) c.overrides.push_back(path + "=" + value.dump());
             for (const auto& [frames, hash] : entry.at("frames").items())
                 c.hashes[std::stoull(frames)] = hash;
             read.push_back(c);
