@@ -7,7 +7,6 @@
 #include <cmath>
 #include <set>
 
-#include "backend/cpu/kernels.hpp"
 #include "solve/frame.hpp"
 #include "test_runners.hpp"
 
@@ -44,15 +43,15 @@ Scene strip(bool on_mesh, double threshold = activate_at)
 }
 
 /// The model's positions, with the strip pulled apart by 12 % of a spring's length behind a row.
-std::vector<Vec3> pulled_apart(const ClothModel& model, std::uint32_t row)
+std::vector<Vec3> pulled_apart(const ClothModel& model, std::uint32_t row, float part = 0.12f)
 {
     std::vector<Vec3> positions = model.positions;
     const Vec3 a = positions[model.node(0)], b = positions[model.node(columns)];
     for (std::uint32_t vertex = (row + 1) * columns; vertex < positions.size(); ++vertex) {
         const std::uint32_t i = model.node(vertex);
-        positions[i].x += 0.12f * (b.x - a.x);
-        positions[i].y += 0.12f * (b.y - a.y);
-        positions[i].z += 0.12f * (b.z - a.z);
+        positions[i].x += part * (b.x - a.x);
+        positions[i].y += part * (b.y - a.y);
+        positions[i].z += part * (b.z - a.z);
     }
     return positions;
 }
@@ -131,7 +130,7 @@ TEST_P(AcadRows, AreThoseThatAMarkedSpringReaches)
     const std::vector<Vec3> start = pulled_apart(model, 20);
     const std::set<std::size_t> expected = expected_rows(model, start);
     ASSERT_LT(expected.size(), model.is_sheet() ? 4U : 6U);  // of 64 rows, of 9 groups
-    for (const Backend backend : {Backend::reference, Backend::cpu, Backend::vulkan}) {
+    for (const Backend backend : test::backends()) {
         const auto runner = test::make_runner(backend, model);
         EXPECT_EQ(step_from(*runner, model, start).active, columns) << name_of(backend);
         EXPECT_EQ(live_rows(*runner, model), expected) << name_of(backend);
@@ -142,7 +141,7 @@ TEST_P(AcadRows, AloneAreMoved)
 {
     const std::vector<Vec3> start = pulled_apart(model, 20);
     const std::set<std::size_t> live = expected_rows(model, start);
-    for (const Backend backend : {Backend::reference, Backend::cpu, Backend::vulkan}) {
+    for (const Backend backend : test::backends()) {
         const auto runner = test::make_runner(backend, model), idle = test::make_runner(backend, idle_model);
         const Step held = step_from(*runner, model, start), loose = step_from(*idle, idle_model, start);
         EXPECT_EQ(loose.active, 0) << name_of(backend);
@@ -166,7 +165,7 @@ TEST_P(AcadRows, LeaveNothingForTheNextSolve)
 {
     const std::vector<Vec3> first = pulled_apart(model, 20), second = pulled_apart(model, 47);
     Step on_cpu;
-    for (const Backend backend : {Backend::reference, Backend::cpu, Backend::vulkan}) {
+    for (const Backend backend : test::backends()) {
         const auto used = test::make_runner(backend, model), fresh = test::make_runner(backend, model);
         step_from(*used, model, first);
         const Step after = step_from(*used, model, second), alone = step_from(*fresh, model, second);
@@ -184,17 +183,49 @@ TEST_P(AcadRows, ArePartedAmongThreadsWithoutAChange)
 {
     const std::vector<Vec3> first = pulled_apart(model, 20), second = pulled_apart(model, 21);
     Step one;
-    for (const cpu::Kernels* kernels : cpu::available_kernels())
-        for (const unsigned threads : {1U, 2U, 3U}) {
-            SimulationOptions options;
-            options.threads = threads;
-            options.instruction_set = kernels->name;
-            const auto runner = make_cpu_runner({&model, 1}, options);
-            step_from(*runner, model, first);
-            const Step step = step_from(*runner, model, second);
-            if (one.positions.empty()) one = step;
-            EXPECT_EQ(step.positions, one.positions) << kernels->name << ", " << threads;
-        }
+    for (const test::CpuWay& way : test::cpu_ways()) {
+        const auto runner = make_cpu_runner({&model, 1}, way.options());
+        step_from(*runner, model, first);
+        const Step step = step_from(*runner, model, second);
+        if (one.positions.empty()) one = step;
+        EXPECT_EQ(step.positions, one.positions) << way;
+    }
+}
+
+TEST_P(AcadRows, AreThoseAtASpringThatAPinHolds)
+{
+    // Row 0 is pinned, and no spring is marked but those that lead to it.
+    for (std::uint32_t vertex = 0; vertex < columns; ++vertex) scene.cloth_handle(0).pin(vertex);
+    const ClothModel held(scene.cloth(0), scene);
+    const std::vector<Vec3> start = pulled_apart(held, 0);
+    std::set<std::size_t> expected;
+    if (held.is_sheet())
+        expected = expected_rows(held, start);
+    else
+        for (std::uint32_t vertex = columns; vertex < 2 * columns; ++vertex)
+            expected.insert(held.node(vertex) / sum_columns);
+    for (const Backend backend : {Backend::reference, Backend::cpu, Backend::vulkan}) {
+        const auto runner = test::make_runner(backend, held);
+        EXPECT_GE(step_from(*runner, held, start).active, columns) << name_of(backend);
+        const std::set<std::size_t> live = live_rows(*runner, held);
+        for (const std::size_t row : expected)
+            EXPECT_EQ(live.count(row), 1U) << name_of(backend) << ", " << row;
+        EXPECT_LE(live.size(), expected.size() + 2) << name_of(backend);  // bend springs reach the next group
+    }
+}
+
+TEST_P(AcadRows, HoldOnToTheirSpringsDownToTheSecondThreshold)
+{
+    scene.acad.target = AcadTarget::rest;
+    scene.acad.deactivate_at = 0.02;
+    const ClothModel held(scene.cloth(0), scene);
+    const std::vector<Vec3> first = pulled_apart(held, 20), second = pulled_apart(held, 20, 0.06f);
+    for (const Backend backend : {Backend::reference, Backend::cpu, Backend::vulkan}) {
+        const auto used = test::make_runner(backend, held), fresh = test::make_runner(backend, held);
+        EXPECT_GE(step_from(*used, held, first).active, columns) << name_of(backend);
+        EXPECT_GE(step_from(*used, held, second).active, columns) << name_of(backend);
+        EXPECT_EQ(step_from(*fresh, held, second).active, 0) << name_of(backend);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, AcadRows, testing::Bool(),

@@ -4,12 +4,11 @@
 #include <cmath>
 
 #include "bench_command.hpp"
+#include "bench_harness.hpp"
 #include "pliant/extremes.hpp"
 
 namespace pliant::tool {
 namespace {
-
-constexpr double frame = 1.0 / 60;
 
 /// N/m, of all classes: held at two corners 32 x 32 nodes stretch springs beyond 10 %, held at an edge they
 /// do not.
