@@ -188,6 +188,7 @@ class Killer:
             environment["PLIANT_MUTANT"] = str(mutant)
         if without_device:
             environment["VK_DRIVER_FILES"] = environment["VK_ICD_FILENAMES"] = "/nonexistent"
+            environment["PLIANT_NO_VULKAN"] = "1"  # tests/test_runners.hpp
         command = list(self.command)
         if self.is_gtest:
             if left_out:
