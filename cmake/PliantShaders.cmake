@@ -32,7 +32,7 @@ function(pliant_add_shaders target)
                 set(output ${include_directory}/${variant}.inc)
                 add_custom_command(
                     OUTPUT ${output}
-                    COMMAND ${GLSLC} --target-env=vulkan1.2 ${arithmetic} -Werror -mfmt=num -MD -MF ${output}.d -MT ${output}
+                    COMMAND ${GLSLC} --target-env=vulkan1.1 ${arithmetic} -Werror -mfmt=num -MD -MF ${output}.d -MT ${output}
                             -I ${PROJECT_SOURCE_DIR}/src -I ${PROJECT_SOURCE_DIR}/src/laws -I ${folder} ${source} -o ${output}
                     DEPENDS ${source} DEPFILE ${output}.d
                     COMMENT "Compiling ${variant}" VERBATIM)

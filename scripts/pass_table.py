@@ -27,6 +27,8 @@ def main():
             failures.append(f"src/backend/vulkan/shaders/{name}.comp does not exist")
     if len(passes) != len(re.findall(r"^PASS\(", text, re.M)):
         failures.append("src/solve/passes.def has a row that this script cannot read")
+    if not passes:
+        failures.append("src/solve/passes.def has no passes")
     for failure in failures:
         print(failure)
     print(f"{2 * len(passes) - len(failures)} passed, {len(failures)} failed")

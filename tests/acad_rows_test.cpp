@@ -43,15 +43,15 @@ Scene strip(bool on_mesh, double threshold = activate_at)
 }
 
 /// The model's positions, with the strip pulled apart by 12 % of a spring's length behind a row.
-std::vector<Vec3> pulled_apart(const ClothModel& model, std::uint32_t row)
+std::vector<Vec3> pulled_apart(const ClothModel& model, std::uint32_t row, float part = 0.12f)
 {
     std::vector<Vec3> positions = model.positions;
     const Vec3 a = positions[model.node(0)], b = positions[model.node(columns)];
     for (std::uint32_t vertex = (row + 1) * columns; vertex < positions.size(); ++vertex) {
         const std::uint32_t i = model.node(vertex);
-        positions[i].x += 0.12f * (b.x - a.x);
-        positions[i].y += 0.12f * (b.y - a.y);
-        positions[i].z += 0.12f * (b.z - a.z);
+        positions[i].x += part * (b.x - a.x);
+        positions[i].y += part * (b.y - a.y);
+        positions[i].z += part * (b.z - a.z);
     }
     return positions;
 }
@@ -189,6 +189,42 @@ TEST_P(AcadRows, ArePartedAmongThreadsWithoutAChange)
         const Step step = step_from(*runner, model, second);
         if (one.positions.empty()) one = step;
         EXPECT_EQ(step.positions, one.positions) << way;
+    }
+}
+
+TEST_P(AcadRows, AreThoseAtASpringThatAPinHolds)
+{
+    // Row 0 is pinned, and no spring is marked but those that lead to it.
+    for (std::uint32_t vertex = 0; vertex < columns; ++vertex) scene.cloth_handle(0).pin(vertex);
+    const ClothModel held(scene.cloth(0), scene);
+    const std::vector<Vec3> start = pulled_apart(held, 0);
+    std::set<std::size_t> expected;
+    if (held.is_sheet())
+        expected = expected_rows(held, start);
+    else
+        for (std::uint32_t vertex = columns; vertex < 2 * columns; ++vertex)
+            expected.insert(held.node(vertex) / sum_columns);
+    for (const Backend backend : {Backend::reference, Backend::cpu, Backend::vulkan}) {
+        const auto runner = test::make_runner(backend, held);
+        EXPECT_GE(step_from(*runner, held, start).active, columns) << name_of(backend);
+        const std::set<std::size_t> live = live_rows(*runner, held);
+        for (const std::size_t row : expected)
+            EXPECT_EQ(live.count(row), 1U) << name_of(backend) << ", " << row;
+        EXPECT_LE(live.size(), expected.size() + 2) << name_of(backend);  // bend springs reach the next group
+    }
+}
+
+TEST_P(AcadRows, HoldOnToTheirSpringsDownToTheSecondThreshold)
+{
+    scene.acad.target = AcadTarget::rest;
+    scene.acad.deactivate_at = 0.02;
+    const ClothModel held(scene.cloth(0), scene);
+    const std::vector<Vec3> first = pulled_apart(held, 20), second = pulled_apart(held, 20, 0.06f);
+    for (const Backend backend : {Backend::reference, Backend::cpu, Backend::vulkan}) {
+        const auto used = test::make_runner(backend, held), fresh = test::make_runner(backend, held);
+        EXPECT_GE(step_from(*used, held, first).active, columns) << name_of(backend);
+        EXPECT_GE(step_from(*used, held, second).active, columns) << name_of(backend);
+        EXPECT_EQ(step_from(*fresh, held, second).active, 0) << name_of(backend);
     }
 }
 

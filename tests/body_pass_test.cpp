@@ -154,15 +154,8 @@ TEST_P(BodyPassParity, AllBackendsAgree)
     for (const double m : model.masses) least_mass = std::min(least_mass, m);
     const double velocity_tolerance = 2 * 2 * 40 * 1000 * rounding * dt / least_mass + 256 * rounding;
     const auto expect_near = [&](Resource resource, double tolerance) {
-        ASSERT_EQ(expected.at(resource).size(), exact.at(resource).size());
-        double worst = 0;
-        for (std::size_t i = 0; i < exact.at(resource).size(); ++i) {
-            const double difference = double{expected.at(resource)[i]} - double{exact.at(resource)[i]};
-            ASSERT_TRUE(std::isfinite(difference))
-                << "resource " << static_cast<int>(resource) << " at " << i;
-            worst = std::max(worst, std::abs(difference));
-        }
-        EXPECT_LE(worst, tolerance) << "resource " << static_cast<int>(resource);
+        EXPECT_LE(test::largest_difference(expected.at(resource), exact.at(resource)), tolerance)
+            << "resource " << static_cast<int>(resource);
     };
     // The correction turns the rounding of positions, over a step, into velocity.
     const double correction = GetParam().constrained ? 16 * rounding / dt : 0;

@@ -1,5 +1,4 @@
-// Meshes are refused as bodies with volume, in words that help. The collection of bad files is read where it
-// exists beside the repository.
+// Meshes are refused as bodies with volume, in words that help, and the files of bad_meshes.py are mended.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +8,7 @@
 
 #include "pliant/mesh_generators.hpp"
 #include "test_meshes.hpp"
+#include "test_paths.hpp"
 
 namespace pliant {
 namespace {
@@ -87,12 +87,11 @@ TEST(RequireClosed, refuses_everything_else_that_has_no_volume)
     EXPECT_NE(refusal_of(mesh).find("it has an edge without length; mend it by"), std::string::npos);
 }
 
-// ---- the collection beside the repository
+// ---- the files of bad_meshes.py
 
-TEST(SharedMeshes, repair_makes_of_bad_files_what_the_manifest_says)
+TEST(BadMeshes, repair_makes_of_bad_files_what_the_manifest_says)
 {
-    const fs::path bad = fs::path(PLIANT_SHARED_DIR) / "meshes" / "bad";
-    if (!fs::exists(bad / "manifest.json")) GTEST_SKIP() << "no collection of bad meshes at " << bad;
+    const fs::path bad = test::bad_meshes_folder;
     const auto manifest = nlohmann::json::parse(std::ifstream(bad / "manifest.json"));
     std::size_t bodies = 0, mended_bodies = 0;
     for (const auto& entry : manifest.at("files")) {
@@ -134,17 +133,15 @@ TEST(SharedMeshes, repair_makes_of_bad_files_what_the_manifest_says)
               bodies + 8);  // soup, jitter, inside out, mixed, duplicate, degenerate, unused, length 0
 }
 
-TEST(SharedMeshes, the_scanned_rabbit_is_closed)
+TEST(BadMeshes, the_scan_is_closed)
 {
-    const fs::path file = fs::path(PLIANT_SHARED_DIR) / "meshes" / "bad" / "real_bunny_raw_holes.ply";
-    if (!fs::exists(file)) GTEST_SKIP() << "no mesh at " << file;
-    SurfaceMesh mesh = read_mesh(file);
+    SurfaceMesh mesh = read_mesh(fs::path(test::bad_meshes_folder) / "scan_with_holes.ply");
     ASSERT_EQ(inspect_mesh(mesh).boundary_loops, 5u);
     const RepairReport report = repair_mesh(mesh, {.fill_holes = true});
     EXPECT_EQ(report.isolated_vertices, 1113u);
     EXPECT_EQ(report.filled_holes, 5u);
     EXPECT_EQ(report.added_triangles, 223u - 2 * 5);  // n corners take n - 2 triangles
-    EXPECT_NO_THROW(require_closed(mesh, "bunny"));
+    EXPECT_NO_THROW(require_closed(mesh, "scan"));
     EXPECT_EQ(inspect_mesh(mesh).genus, 0);
 }
 

@@ -103,7 +103,7 @@ def info_names_backends_and_limits(folder):
         expect_words(outcome.out, [f"--backend {backend}"])
     expect_words(outcome.out, ["instruction sets"])
     for line in info_lines("vulkan --device"):
-        expect_words(line, ["Vulkan 1.", "MiB"])
+        expect_words(line, ["Vulkan 1.", "MiB", "; equal bits "])  # on all machines, or not promised, and why
 
 
 @case

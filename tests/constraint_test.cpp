@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
+#include <vector>
 
 #include "pliant/pliant.hpp"
 #include "test_cloths.hpp"
+#include "test_differences.hpp"
 
 namespace pliant {
 namespace {
@@ -69,8 +72,10 @@ void expect_equal_bits_on_cpu_and_vulkan(const Scene& scene, int frames)
     for (int frame = 0; frame < frames; ++frame) {
         cpu.advance(1 / 60.0);
         vulkan.advance(1 / 60.0);
+        ASSERT_TRUE(cpu.report().finite);
         ASSERT_EQ(cpu.state_hash(), vulkan.state_hash()) << "frame " << frame;
     }
+    EXPECT_GT(cpu.report().measures.max_speed, 0.01);
     EXPECT_EQ(vulkan.report().validation_messages, 0U);
 }
 
@@ -84,14 +89,14 @@ TEST(Constraint, PendulumKeepsItsLengthToTheCompliance)
     const double compliance = 1e-5, swinging = 1.0;  // kg: the other half of the mass is pinned
     scene.cloth_handle(0)->springs.structural.compliance = compliance;
     Simulation simulation(scene, test::on(Backend::reference));
-    double longest = 0;
+    test::Largest longest;
     for (int frame = 0; frame < 120; ++frame) {
         simulation.advance(1 / 60.0);
-        longest = std::max(longest, simulation.report().measures.max_stretch);
+        longest.add(simulation.report().measures.max_stretch);
     }
     EXPECT_TRUE(simulation.report().finite);
-    EXPECT_LE(longest, 1.5 * swinging * g * compliance * 1.05);
-    EXPECT_GT(longest, 0.2 * swinging * g * compliance);  // it does carry its weight
+    EXPECT_LE(longest.value(), 1.5 * swinging * g * compliance * 1.05);
+    EXPECT_GT(longest.value(), 0.2 * swinging * g * compliance);  // it does carry its weight
 }
 
 TEST(Constraint, PendulumHasThePeriodOfItsLength)
@@ -189,29 +194,52 @@ TEST(Constraint, HangingChainTakesTheCatenary)
         for (int frame = 0; frame < 600; ++frame) simulation.advance(1 / 60.0);
         const auto x = simulation.positions();
         EXPECT_NEAR(x[2 * (rows - 1)].z - x[0].z, 1.0, 1e-6);  // the pin has moved to where it was sent
-        float lowest = 0;
-        for (const Vec3& p : x) lowest = std::min(lowest, p.y);
-        error[k] = std::abs(-double{lowest} - 0.292344);
+        test::Smallest lowest;
+        for (const Vec3& p : x) lowest.add(double{p.y});
+        error[k] = std::abs(-lowest.value() - 0.292344);
     }
     EXPECT_LT(error[1], 0.003);
     EXPECT_LT(error[1], 0.6 * error[0] + 1e-4);
 }
 
-TEST(Constraint, MomentumIsKeptWithoutGravity)
+TEST(Constraint, MomentumGrowsByTheWeightAlone)
 {
-    Scene scene = hanging_sheet(12);
-    scene.gravity = {};
+    Scene scene = hanging_sheet(7);
     scene.cloth_handle(0)->pins.clear();
     scene.cloth_handle(0)->damping = 0;
-    scene.cloth_handle(0)->velocity = {0.3, -0.2, 0.1};
-    scene.cloth_handle(0)->springs.structural.compliance = 1e-4;
+    scene.cloth_handle(0)->springs.structural.compliance = scene.cloth_handle(0)->springs.shear.compliance =
+        1e-4;
+    scene.newton_multigrid.resists =
+        Resists::both;  // steps of slack threads are hardly ever solved to the end
+    converge(scene);
     Simulation simulation(scene, test::on(Backend::reference));
-    for (int frame = 0; frame < 60; ++frame) simulation.advance(1 / 60.0);
-    Vec3d sum{};
-    for (const Vec3& v : simulation.velocities()) sum = sum + to_double(v) * (1.0 / 144);
-    EXPECT_NEAR(sum.x, 0.3, 1e-5);
-    EXPECT_NEAR(sum.y, -0.2, 1e-5);
-    EXPECT_NEAR(sum.z, 0.1, 1e-5);
+    // Every node its own way, so that constraints work against each other.
+    State state = simulation.state();
+    std::mt19937 engine(4);
+    std::uniform_real_distribution<float> unit(-0.3f, 0.3f);
+    for (Vec3& v : state.cloths[0].velocities)
+        v = {0.3f + unit(engine), -0.2f + unit(engine), 0.1f + unit(engine)};
+    simulation.set_state(state);
+    struct Moments {
+        Vec3d mean;
+        double spread = 0;  ///< m2/s2, mean square about it
+    };
+    const auto moments = [](std::span<const Vec3> velocities) {
+        Moments m;
+        for (const Vec3& v : velocities) m.mean = m.mean + to_double(v) * (1.0 / 49);
+        for (const Vec3& v : velocities) m.spread += std::pow(test::distance(to_double(v), m.mean), 2) / 49;
+        return m;
+    };
+    const Moments before = moments(state.cloths[0].velocities);
+    for (int frame = 0; frame < 12; ++frame) simulation.advance(1 / 60.0);
+    const Moments after = moments(simulation.velocities());
+    EXPECT_LE(simulation.report().solver.residual_max, 1e-6);
+    // What a step leaves unsolved, r . A^-1 r <= 1e-12 of the load m g^2 dt^2, can push the sheet as a whole,
+    // which feels nothing but inertia, by 1e-6 g dt at most: 2e-6 m/s in these 12 frames. The test of the
+    // solver looks at its last step, and not at what is left: hence twice that.
+    EXPECT_LE(test::distance(after.mean, before.mean + Vec3d{0, -g * 12 / 60, 0}), 4e-6);
+    EXPECT_GT(simulation.report().solver.active_max, 50U);
+    EXPECT_LT(after.spread, 0.5 * before.spread);  // they have had to do with each other
 }
 
 TEST(Constraint, WhatCannotBeSatisfiedEndsInTheLeastStretch)
@@ -236,16 +264,16 @@ TEST(Constraint, SheetHoldsOnePercentAndMovesAsItShould)
         Scene scene = hanging_sheet(32);
         Simulation simulation(scene, test::on(backend));
         const double height[] = {-0.327, -0.990, -0.565}, bar[] = {0.02, 0.04, 0.08};
-        double longest = 0;
+        test::Largest longest;
         for (int frame = 1; frame <= 60; ++frame) {
             simulation.advance(1 / 60.0);
-            longest = std::max(longest, simulation.report().measures.max_stretch);
+            longest.add(simulation.report().measures.max_stretch);
             if (frame % 15 == 0 && frame <= 45) {
                 const int k = frame / 15 - 1;
                 EXPECT_NEAR(simulation.positions()[31 * 32 + 16].y, height[k], bar[k]) << name_of(backend);
             }
         }
-        EXPECT_LE(longest, 0.01) << name_of(backend);
+        EXPECT_LE(longest.value(), 0.01) << name_of(backend);
     }
 }
 
@@ -259,6 +287,7 @@ TEST(Constraint, ThreadsAndRunsGiveTheSameBits)
         options.threads = threads;
         Simulation simulation(scene, options);
         for (int frame = 0; frame < 20; ++frame) simulation.advance(1 / 60.0);
+        EXPECT_TRUE(simulation.report().finite);
         if (hash == 0) hash = simulation.state_hash();
         EXPECT_EQ(simulation.state_hash(), hash) << threads << " threads";
     }
@@ -278,14 +307,27 @@ TEST(Constraint, ClothRestsOnASphereAndDoesNotEnterIt)
     scene.cloth_handle(0)->position = {0, 0.75, 0};
     scene.add(Sphere{.centre = {0, 0.4, 0}, .radius = 0.3, .friction = 0.4});
     Simulation simulation(scene, test::on(Backend::cpu));
-    double longest = 0, deepest = 0;
+    test::Largest longest, deepest;
     for (int frame = 0; frame < 180; ++frame) {
         simulation.advance(1 / 60.0);
-        longest = std::max(longest, simulation.report().measures.max_stretch);
-        deepest = std::max(deepest, simulation.report().measures.max_penetration);
+        longest.add(simulation.report().measures.max_stretch);
+        deepest.add(simulation.report().measures.max_penetration);
     }
-    EXPECT_LE(longest, 0.02);
-    EXPECT_LE(deepest, scene.cloth(0).thickness + 1e-4);  // into the sphere itself
+    EXPECT_LE(longest.value(), 0.02);
+    const double thickness = scene.cloth(0).thickness;
+    EXPECT_LE(deepest.value(), thickness + 1e-4);  // into the sphere itself
+    // It has come down on the sphere, whose top is at 0.7 m, and hangs about it: it touches, its middle is on
+    // top, and its border is far below.
+    EXPECT_GT(deepest.value(), 0);
+    const auto x = simulation.positions();
+    test::Smallest lowest;
+    test::Largest highest;
+    for (const Vec3& p : x) lowest.add(double{p.y}), highest.add(double{p.y});
+    EXPECT_GT(highest.value(), 0.7);
+    EXPECT_LT(highest.value(), 0.73);  // a wrinkle
+    EXPECT_LT(lowest.value(), 0.45);
+    EXPECT_GT(lowest.value(), -0.05);  // and no part of it has fallen off
+    EXPECT_LT(simulation.report().measures.max_speed, 0.5);
 }
 
 TEST(Constraint, FrictionHoldsBelowItsAngleAndLetsGoAboveIt)
@@ -337,9 +379,13 @@ TEST(Constraint, StaysFiniteAcrossTheGrid)
                             1 / stiffness;
                     scene.add(Sphere{.centre = {0, 0.4, 0}, .radius = 0.3, .friction = 0.4});
                     Simulation simulation(scene, test::on(Backend::cpu));
+                    const auto x = simulation.positions();
+                    const std::vector<Vec3> start(x.begin(), x.end());
                     for (int frame = 0; frame < static_cast<int>(rate); ++frame) simulation.advance(1 / rate);
                     EXPECT_TRUE(simulation.report().finite) << name_of(method) << ", " << rate << " steps/s, "
                                                             << stiffness << " N/m, " << mass << " kg";
+                    // What has begun to fall is elsewhere a second later.
+                    EXPECT_GT(test::largest_difference(simulation.positions(), start), 0.01);
                 }
 }
 
@@ -363,15 +409,16 @@ TEST(Acad, SoftSheetStopsAtItsThreshold)
     Scene springs = scene;
     springs.method = Method::mass_spring;
     Simulation bounded(scene, test::on(Backend::cpu)), loose(springs, test::on(Backend::cpu));
-    double longest = 0, longest_loose = 0;
+    test::Largest longest, longest_loose;
     for (int frame = 0; frame < 90; ++frame) {
         bounded.advance(1 / 60.0);
         loose.advance(1 / 60.0);
-        longest = std::max(longest, bounded.report().measures.max_stretch);
-        longest_loose = std::max(longest_loose, loose.report().measures.max_stretch);
+        longest.add(bounded.report().measures.max_stretch);
+        longest_loose.add(loose.report().measures.max_stretch);
     }
-    EXPECT_GT(longest_loose, 0.2);
-    EXPECT_LE(longest, 0.12);
+    EXPECT_GT(longest_loose.value(), 0.2);
+    EXPECT_LE(longest.value(), 0.12);
+    EXPECT_GT(longest.value(), 0.09);  // it does reach it
     EXPECT_GT(bounded.report().solver.active_max, 0U);
 }
 
@@ -386,6 +433,8 @@ TEST(Acad, WithoutActiveConstraintsIsMassSpringBitForBit)
         plain.advance(1 / 60.0);
     }
     ASSERT_EQ(acad.report().solver.active_max, 0U);
+    EXPECT_TRUE(acad.report().finite);
+    EXPECT_GT(acad.report().measures.max_speed, 0.1);
     EXPECT_EQ(acad.state_hash(), plain.state_hash());
 }
 

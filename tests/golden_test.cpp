@@ -18,13 +18,18 @@
 #include <nlohmann/json.hpp>
 
 #include "record/run_record.hpp"
+#include "test_paths.hpp"
 #include "test_runners.hpp"
 
 namespace pliant {
 namespace {
 
 using Json = nlohmann::ordered_json;
-const std::string golden_file = PLIANT_SOURCE_DIR "/tests/golden_hashes.json";
+const std::string& golden_file()
+{
+    static const std::string name = std::string(test::project_folder) + "/tests/golden_hashes.json";
+    return name;
+}
 
 std::string setting(const char* name)
 {
@@ -45,12 +50,11 @@ std::vector<Case>& cases()
 {
     static std::vector<Case> all = [] {
         std::vector<Case> read;
-        std::ifstream file(golden_file);
+        std::ifstream file(golden_file());
         for (const Json& entry : Json::parse(file)) {
             Case c{entry.at("name"), entry.at("scene"), {}, entry.value("every_way", false), {}};
             const Json set = entry.value("set", Json::object());
-            for (const auto& [path, value] : set.items())
-                c.overrides.push_back(path + "=" + value.dump());
+            for (const auto& [path, value] : set.items()) c.overrides.push_back(path + "=" + value.dump());
             for (const auto& [frames, hash] : entry.at("frames").items())
                 c.hashes[std::stoull(frames)] = hash;
             read.push_back(c);
@@ -97,9 +101,9 @@ private:
     /// A line for each case, so that a change shows whom it concerns.
     static void write()
     {
-        std::ifstream before(golden_file);
+        std::ifstream before(golden_file());
         Json entries = Json::parse(before);
-        std::ofstream file(golden_file);
+        std::ofstream file(golden_file());
         const char* separator = "[\n";
         for (Json& entry : entries) {
             const auto found = std::find_if(cases().begin(), cases().end(),

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "pliant/mesh_generators.hpp"
+#include "test_differences.hpp"
 #include "test_errors.hpp"
 
 namespace pliant {
@@ -134,15 +135,15 @@ TEST(MeshGenerators, sheet_faces_up)
 
 double smallest_angle(const SurfaceMesh& mesh)
 {
-    double cosine = -1;
+    test::Largest cosine;
     for (const Triangle& t : mesh.triangles)
         for (std::size_t k = 0; k < 3; ++k) {
             const Vec3d tip = to_double(mesh.vertices[t[k]]);
             const Vec3d u = to_double(mesh.vertices[t[(k + 1) % 3]]) - tip,
                         v = to_double(mesh.vertices[t[(k + 2) % 3]]) - tip;
-            cosine = std::max(cosine, dot(u, v) / std::sqrt(dot(u, u) * dot(v, v)));
+            cosine.add(dot(u, v) / std::sqrt(dot(u, u) * dot(v, v)));
         }
-    return std::acos(cosine) * 180 / pi;
+    return std::acos(cosine.value()) * 180 / pi;
 }
 
 TEST(MeshGenerators, blob_is_one_well_shaped_ball_of_any_resolution)

@@ -9,11 +9,12 @@
 #include "pliant/scene.hpp"
 #include "scene/document.hpp"
 #include "scene/fields.hpp"
+#include "test_paths.hpp"
 
 namespace pliant {
 namespace {
 
-const std::filesystem::path root = PLIANT_SOURCE_DIR;
+const std::filesystem::path root = test::project_folder;
 
 /// Visits the fields of a scene made of defaults beside the schema's description of it.
 class SchemaComparison {

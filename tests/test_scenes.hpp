@@ -9,10 +9,11 @@
 #include <vector>
 
 #include "pliant/scene.hpp"
+#include "test_paths.hpp"
 
 namespace pliant::test {
 
-inline const std::filesystem::path root = PLIANT_SOURCE_DIR;
+inline const std::filesystem::path root = project_folder;
 
 /// A file for the length of a test.
 class TemporaryFile {

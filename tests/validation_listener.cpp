@@ -1,6 +1,11 @@
 // Linked into every test that opens Vulkan devices: a test fails when the validation layer said anything
-// during it, and be it while a device was closed.
+// during it, and be it while a device was closed. And all of them fail when they do not run on the device
+// that PLIANT_EXPECT_DEVICE names a part of: a driver or a layer that was not found is otherwise passed over
+// in silence.
 #include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
 
 #include "backend/vulkan/device.hpp"
 
@@ -20,7 +25,21 @@ class ValidationListener final : public testing::EmptyTestEventListener {
     std::uint64_t before_ = 0;
 };
 
+class DeviceCheck final : public testing::Environment {
+    void SetUp() override
+    {
+        const char* expected = std::getenv("PLIANT_EXPECT_DEVICE");
+        if (!expected) return;
+        const auto devices = vulkan::list_physical_devices();
+        ASSERT_FALSE(devices.empty()) << "there is no Vulkan device, instead of " << expected;
+        for (const auto& device : devices)
+            EXPECT_NE(device.name.find(expected), std::string::npos)
+                << device.name << " instead of " << expected;
+    }
+};
+
 const bool listening = [] {
+    testing::AddGlobalTestEnvironment(new DeviceCheck);                            // which takes ownership
     testing::UnitTest::GetInstance()->listeners().Append(new ValidationListener);  // which takes ownership
     return true;
 }();

@@ -17,6 +17,7 @@
 #include "label.hpp"
 #include "render/image_file.hpp"
 #include "test_errors.hpp"
+#include "test_paths.hpp"
 #include "viewer/script.hpp"
 #include "viewer/viewer.hpp"
 
@@ -129,7 +130,7 @@ void expect_alike(const Image& image, const std::uint8_t* other, const std::stri
 /// Compares with a stored picture, which PLIANT_UPDATE_PICTURES=1 replaces by what there is now.
 void expect_picture(const Image& image, const std::string& name)
 {
-    const auto file = std::filesystem::path(PLIANT_SOURCE_DIR) / "tests/data/pictures" / (name + ".png");
+    const auto file = std::filesystem::path(test::project_folder) / "tests/data/pictures" / (name + ".png");
     const Image small = reduced(image);
     if (std::getenv("PLIANT_UPDATE_PICTURES")) return write_png(file, small);
     int width = 0, height = 0, channels = 0;
@@ -144,7 +145,7 @@ void expect_picture(const Image& image, const std::string& name)
 TEST_F(ViewerTest, ShowsEveryOverlay)
 {
     auto viewer = viewer_of(Backend::cpu);
-    viewer->open(std::string(PLIANT_SOURCE_DIR) + "/tests/data/viewer_cloth.json");
+    viewer->open(std::string(test::project_folder) + "/tests/data/viewer_cloth.json");
     viewer->view().panel = false;
     run(*viewer, 40);
     viewer->session().paused = true;
@@ -208,7 +209,7 @@ TEST_F(ViewerTest, AllocatesNothingInAFrame)
     check(Backend::cpu, "parity");
     check(Backend::vulkan, "parity");
     check(Backend::cpu, "inflate");
-    check(Backend::cpu, std::string(PLIANT_SOURCE_DIR) + "/tests/data/viewer_cloth.json");
+    check(Backend::cpu, std::string(test::project_folder) + "/tests/data/viewer_cloth.json");
 }
 
 /// What changes in a viewer that somebody plays with, the k-th time.

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "bench_command.hpp"
+#include "bench_harness.hpp"
+#include "pliant/extremes.hpp"
 
 namespace pliant::tool {
 namespace {
-
-constexpr double frame = 1.0 / 60;
 
 /// N/m, of all classes: held at two corners 32 x 32 nodes stretch springs beyond 10 %, held at an edge they
 /// do not.
@@ -65,7 +65,7 @@ BenchCase readiness_case(const BenchOptions& options, bool pulled)
                 for (int k = 0; k < frames + 2; ++k) {
                     const double one = milliseconds_to_advance(springs, frame);
                     const double other = milliseconds_to_advance(acad, frame);
-                    stretch = std::max(stretch, acad.report().measures.max_stretch);
+                    stretch = larger(stretch, acad.report().measures.max_stretch);
                     const bool counts = pulled ? acad.report().solver.active_max > 0 : k >= 2;
                     if (!counts) continue;  // programs are made and memory is fetched; nothing is pulled yet
                     of_springs.push_back(one / scene.time.substeps);
@@ -120,7 +120,7 @@ BenchCase figure_10_case(const BenchOptions& options, bool by_corners)
                     for (int k = 0; k < frames && simulation.report().finite; ++k) {
                         if (k >= least_frames && simulation.report().wall_seconds > patience) break;
                         milliseconds.push_back(milliseconds_to_advance(simulation, frame));
-                        stretch = std::max(stretch, simulation.report().measures.max_stretch);
+                        stretch = larger(stretch, simulation.report().measures.max_stretch);
                     }
                     const double rate = 1000 / median_of(milliseconds);
                     BenchRow row = table.row(simulation, subject, sheet_stiffness, stretch);
@@ -185,7 +185,7 @@ BenchCase stability_case(const BenchOptions& options, const StabilityPoint& poin
                 double stretch = 0;
                 for (long k = 0; k < frames && report.finite && !report.device_lost; ++k) {
                     simulation.advance(point.step);
-                    if (report.finite) stretch = std::max(stretch, report.measures.max_stretch);
+                    if (report.finite) stretch = larger(stretch, report.measures.max_stretch);
                 }
                 BenchRow row = table.row(simulation, subject, point.stiffness, stretch);
                 if (!report.finite) row.remark = "until frame " + std::to_string(report.bad_frame);

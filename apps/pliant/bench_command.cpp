@@ -10,6 +10,7 @@
 #include "commands.hpp"
 #include "pliant/error.hpp"
 #include "pliant/version.hpp"
+#include "processor.hpp"
 #include "progress.hpp"
 
 namespace pliant::tool {
@@ -38,15 +39,6 @@ void check_files(const BenchOptions& options)
         if (!name.empty() && !names.insert(name).second)
             throw Error(ErrorKind::bad_usage,
                         "two of --json, --csv and --plot name " + name + "; give each its own");
-}
-
-/// The processor as the system names it; empty where it does not.
-std::string processor_name()
-{
-    std::ifstream file("/proc/cpuinfo");
-    for (std::string line; std::getline(file, line);)
-        if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-    return "";
 }
 
 /// Where the steps run, and the machine around it.

@@ -9,15 +9,16 @@
 #include <vector>
 
 #include "bench_command.hpp"
+#include "bench_harness.hpp"
+#include "pliant/extremes.hpp"
 #include "simulation/linear_benchmark.hpp"
 
 namespace pliant::tool {
 namespace {
 
-constexpr double frame = 1.0 / 60;
 constexpr double goal = 1e-3;  // |r| / |r0|
 
-std::string number(double value)
+std::string text_of(double value)
 {
     char text[32];
     std::snprintf(text, sizeof text, "%g", value);
@@ -27,7 +28,7 @@ std::string square(std::uint32_t n) { return std::to_string(n) + " x " + std::to
 
 void remember_stretch(const Simulation& simulation, double& stretch)
 {
-    stretch = std::max(stretch, simulation.report().measures.max_stretch);
+    stretch = larger(stretch, simulation.report().measures.max_stretch);
 }
 
 // --- linear systems -------------------------------------------------------------------------------
@@ -72,7 +73,8 @@ BenchCase cycles_case(const BenchOptions& options, const std::string& subject,
                     const auto solution =
                         state.system(made, Preconditioner::multigrid, smoothing, options.simulation)
                             .solve(goal, most);
-                    row.remark = solution.reached ? "" : "ended at |r| / |r0| = " + number(solution.residual);
+                    row.remark =
+                        solution.reached ? "" : "ended at |r| / |r0| = " + text_of(solution.residual);
                     const std::string with = ", smoothing " + std::to_string(smoothing);
                     table.add(row, "V-cycles" + with, solution.reached ? solution.iterations : most, "1",
                               smoothing == judged ? at_most(bar) : Bar{});
@@ -153,7 +155,8 @@ void add_preconditioners(const BenchOptions& options, std::vector<BenchCase>& ca
                  const double ms = median_of(way.milliseconds);
                  row.remark =
                      std::to_string(way.solution.iterations) + " iterations" +
-                     (way.solution.reached ? "" : ", ended at |r| / |r0| = " + number(way.solution.residual));
+                     (way.solution.reached ? ""
+                                           : ", ended at |r| / |r0| = " + text_of(way.solution.residual));
                  table.add(row, std::string("time, ") + way.name, ms, "ms");
                  if (way.bar > 0)
                      table.add(row, std::string("time, ") + way.name + " / multigrid", ms / multigrid, "1",
@@ -182,7 +185,7 @@ Fall let_fall(Simulation& simulation, std::uint32_t n, int frames)
         remember_stretch(simulation, fall.stretch);
         if (k > frames - 60) {
             remember_stretch(simulation, fall.stretch_late);
-            fall.speed_late = std::max(fall.speed_late, m.max_speed);
+            fall.speed_late = larger(fall.speed_late, m.max_speed);
         }
         if (k % 15 == 0 && k <= 45) {
             const auto x = simulation.positions();
@@ -239,7 +242,7 @@ BenchRow fall_row(BenchTable& table, Simulation& simulation, const std::string& 
 BenchCase hanging_case(const BenchOptions& options, const HangingSize& size,
                        const std::shared_ptr<ConvergedFalls>& converged)
 {
-    const std::string subject = "hanging, " + square(size.n) + ", " + number(size.density) + " kg/m2";
+    const std::string subject = "hanging, " + square(size.n) + ", " + text_of(size.density) + " kg/m2";
     return {subject, [=](BenchTable& table) {
                 Scene scene = hanging_sheet(size.n, 1 / size.stiffness, size.density);
                 if (size.newton_iterations > 0)

@@ -1,21 +1,15 @@
 // The bandwidth of copying, which steps are held against: by threads, or by a device between two of its
 // buffers.
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 
 #include "backend/cpu/jobs.hpp"
 #include "backend/vulkan/device_state.hpp"
 #include "bench_harness.hpp"
+#include "stopwatch.hpp"
 
 namespace pliant::tool {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start)
-{
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 class HostCopy final : public MemoryCopy {
 public:

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "pliant/extremes.hpp"
+
 namespace pliant::tool {
 
 void take_turns(std::span<Contestant* const> contestants, int repeats)
@@ -49,7 +51,7 @@ double SteppedSimulation::milliseconds_per_step()
     simulation_.advance(duration_);
     const double wall =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-    stretch_ = std::max(stretch_, simulation_.report().measures.max_stretch);
+    stretch_ = larger(stretch_, simulation_.report().measures.max_stretch);
     return (wall - (all_measures() - measures_before)) / substeps_;
 }
 

@@ -13,6 +13,8 @@
 
 namespace pliant::tool {
 
+constexpr double frame = 1.0 / 60;  ///< s, of scenes that are advanced frame by frame
+
 /// One way of doing something. `run` does some of it and returns a number, the same unit every time.
 struct Contestant {
     std::function<double()> run;

@@ -9,7 +9,7 @@
 namespace pliant::tool {
 namespace {
 
-constexpr double stiffness = 1000;  // N/m, structural
+constexpr double structural_stiffness = 1000;  // N/m, structural
 constexpr std::uint64_t largest = 7'817'616;
 constexpr std::uint64_t most_for_bullet = 300'000;  // nodes; beyond them a turn takes seconds
 
@@ -32,7 +32,7 @@ BenchCase sheet_case(const BenchOptions& options, std::uint64_t nodes, bool with
     return {subject + ", " + with_commas(std::uint64_t{n} * n) + " nodes", [=](BenchTable& table) {
                 SteppingCase what;
                 what.subject = subject;
-                what.stiffness = stiffness;
+                what.stiffness = structural_stiffness;
                 what.scene = stepped_scene(sheet(n), Method::mass_spring, options.quick);
                 if (with_sphere)
                     what.scene.add(Sphere{.centre = {0, -0.6, 0}, .radius = 0.5, .friction = 0.3});
@@ -54,7 +54,7 @@ BenchCase mesh_case(const BenchOptions& options, std::uint32_t vertices)
     return {"mesh, spring list, " + with_commas(vertices) + " vertices", [=](BenchTable& table) {
                 SteppingCase what;
                 what.subject = "mesh, spring list";
-                what.stiffness = stiffness;
+                what.stiffness = structural_stiffness;
                 Cloth cloth = Cloth::mesh(blob_mesh({.vertices = vertices}), {.density = 0.3});
                 cloth.pin(0u);
                 what.scene = stepped_scene(std::move(cloth), Method::mass_spring, options.quick);
@@ -69,7 +69,7 @@ BenchCase backends_case(const BenchOptions& options)
     const std::uint32_t n = options.quick ? 12 : 128;
     return {"sheet on every backend", [=](BenchTable& table) {
                 const Scene scene = stepped_scene(sheet(n), Method::mass_spring, options.quick);
-                measure_backends("sheet", scene, stiffness, options, table);
+                measure_backends("sheet", scene, structural_stiffness, options, table);
             }};
 }
 
@@ -88,7 +88,7 @@ BenchCase memory_case(const BenchOptions& options)
                 const double bytes = (held(large) - held(small)) / nodes;
                 Simulation simulation(stepped_scene(sheet(large), Method::mass_spring, options.quick),
                                       options.simulation);
-                const BenchRow row = table.row(simulation, "memory of a sheet", stiffness, {});
+                const BenchRow row = table.row(simulation, "memory of a sheet", structural_stiffness, {});
                 table.add(row, "bytes for a node", bytes, "B", at_most(64));
             }};
 }

@@ -9,8 +9,8 @@
 namespace pliant::tool {
 namespace {
 
-constexpr double stiffness = 500;    // N/m
-constexpr double paper_step = 1e-4;  // s, of the volume paper
+constexpr double body_stiffness = 500;  // N/m
+constexpr double paper_step = 1e-4;     // s, of the volume paper
 constexpr std::uint32_t usual = 31'112;
 
 Scene figure(SurfaceMesh mesh, Method method, bool quick)
@@ -18,7 +18,7 @@ Scene figure(SurfaceMesh mesh, Method method, bool quick)
     float lowest = 0;
     for (const Vec3& x : mesh.vertices) lowest = std::min(lowest, x.y);
     Cloth body = Cloth::soft_body(std::move(mesh), {}, {.density = 2});
-    body.springs.structural = {stiffness, 0.01};
+    body.springs.structural = {body_stiffness, 0.01};
     Scene scene = stepped_scene(std::move(body), method, quick, paper_step);
     scene.add(Plane{.point = {0, double{lowest}, 0}, .friction = 0.5});
     return scene;
@@ -31,7 +31,7 @@ BenchCase figure_case(const BenchOptions& options, const std::string& name, std:
     return {subject + ", " + with_commas(vertices) + " vertices", [=](BenchTable& table) {
                 SteppingCase what;
                 what.subject = subject;
-                what.stiffness = stiffness;
+                what.stiffness = body_stiffness;
                 what.scene = figure(mesh(), method, options.quick);
                 what.one_thread = true;
                 if (method == Method::volume) {

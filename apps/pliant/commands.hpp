@@ -30,7 +30,12 @@ void check_outputs(const RunOptions& options, const Scene& scene);
 
 int run_command(const RunOptions& options);
 int list_command();
-int info_command(bool all);  ///< with what is there for tests, too
+
+struct InfoOptions {
+    bool all = false;         ///< with what is there for tests alone
+    std::string report_file;  ///< empty: none
+};
+int info_command(const InfoOptions& options);
 
 struct CheckOptions {
     std::string scene_or_mesh;

@@ -196,6 +196,20 @@ void add_check(CLI::App& app, CheckOptions& options)
         ->needs(repair);
 }
 
+void add_info(CLI::App& app, InfoOptions& options)
+{
+    CLI::App* info = app.add_subcommand("info", "Backends and devices of this machine, with their limits");
+    info->footer(
+        "Examples:\n"
+        "  pliant info --report my_machine.json\n"
+        "docs/platforms.md says what becomes of such reports.\n");
+    info->add_flag("--all", options.all, "With the instruction sets that are there for tests alone");
+    info->add_option("--report", options.report_file,
+                     "Run five scenes on everything there is, and write their hashes and times with what is "
+                     "known of the machine, JSON: to send in")
+        ->type_name("F.json");
+}
+
 void add_reproduce(CLI::App& app, ReproduceOptions& options)
 {
     CLI::App* reproduce =
@@ -321,9 +335,8 @@ int dispatch(int argc, char** argv)
     ReproduceOptions reproduce_options;
     add_reproduce(app, reproduce_options);
     app.add_subcommand("list", "The built-in scenes");
-    bool info_of_all = false;
-    app.add_subcommand("info", "Backends and devices of this machine, with their limits")
-        ->add_flag("--all", info_of_all, "With the instruction sets that are there for tests alone");
+    InfoOptions info_options;
+    add_info(app, info_options);
     CheckOptions check_options;
     add_check(app, check_options);
     ViewOptions view_options;
@@ -347,7 +360,7 @@ int dispatch(int argc, char** argv)
     if (app.got_subcommand("view")) return view_command(view_options);
     if (app.got_subcommand("render")) return render_command(render_options);
     if (app.got_subcommand("list")) return list_command();
-    if (app.got_subcommand("info")) return info_command(info_of_all);
+    if (app.got_subcommand("info")) return info_command(info_options);
     return check_command(check_options);
 }
 

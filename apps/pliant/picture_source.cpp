@@ -6,6 +6,7 @@
 
 #include "backend/host/plain_cloth.hpp"
 #include "backend/vulkan/device_state.hpp"
+#include "pliant/extremes.hpp"
 
 namespace pliant::tool {
 namespace {
@@ -130,12 +131,12 @@ void PictureSource::gather_contacts(Simulation& simulation)
 
 void PictureSource::scale_forces()
 {
-    float most = 0;
+    double most = 0;
     for (std::size_t c = 0; c < extras_.size(); ++c) {
         extras_[c].values = values_[c];
-        for (const float force : values_[c]) most = std::max(most, force);
+        for (const float force : values_[c]) most = larger(most, force);
     }
-    const double end = most > 0 && std::isfinite(most) ? round_number_above(double{most}) : 1;
+    const double end = most > 0 && std::isfinite(most) ? round_number_above(most) : 1;
     scale_.low = 0, scale_.high = static_cast<float>(end);
     scale_.diverging = false;
     scale_.title = "constraint force", scale_.low_text = "0 N";
@@ -145,7 +146,7 @@ void PictureSource::scale_forces()
 void PictureSource::colour_volumes(const Simulation& simulation)
 {
     double most = 0;
-    for (const BodyMeasures& body : simulation.report().bodies) most = std::max(most, std::abs(body.error));
+    for (const BodyMeasures& body : simulation.report().bodies) most = larger(most, std::abs(body.error));
     const double end = std::isfinite(most) ? round_number_above(std::max(most, 1e-7)) : 1;
     for (std::size_t c = 0; c < extras_.size(); ++c) {
         values_[c].assign(simulation.node_count(c), 0.0f);

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -13,16 +12,10 @@
 #include "record/cache_file.hpp"
 #include "record/run_record.hpp"
 #include "render/picture_recorder.hpp"
+#include "stopwatch.hpp"
 
 namespace pliant::tool {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start)
-{
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 std::string formatted(const char* format, double value)
 {
@@ -80,7 +73,7 @@ public:
         // Nodes on their way to infinity cannot be seen, and software rasterisers take minutes over their
         // triangles.
         constexpr double fastest_drawn = 1e6;  // m/s
-        if (!wanted || simulation_.report().measures.max_speed > fastest_drawn) return;
+        if (!wanted || !(simulation_.report().measures.max_speed <= fastest_drawn)) return;
         const Image& image = painter_->draw();
         for (const auto& recorder : recorders_)
             if (recorder->wants(frame, last)) recorder->add(image, frame);

@@ -24,7 +24,7 @@ struct GridSpring {
 };
 
 /// A side of a triangle, and the vertex opposite to it.
-struct Side {
+struct TriangleSide {
     std::uint32_t i, j, triangle, opposite;
 };
 
@@ -33,16 +33,16 @@ struct PairWeight {
     double weight;  ///< N/m
 };
 
-std::vector<Side> sides_of(std::span<const Triangle> triangles)
+std::vector<TriangleSide> sides_of(std::span<const Triangle> triangles)
 {
-    std::vector<Side> sides;
+    std::vector<TriangleSide> sides;
     sides.reserve(3 * triangles.size());
     for (std::uint32_t t = 0; t < triangles.size(); ++t)
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t a = triangles[t][k], b = triangles[t][(k + 1) % 3];
             sides.push_back({std::min(a, b), std::max(a, b), t, triangles[t][(k + 2) % 3]});
         }
-    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    std::sort(sides.begin(), sides.end(), [](const TriangleSide& a, const TriangleSide& b) {
         return a.i != b.i ? a.i < b.i : a.j != b.j ? a.j < b.j : a.triangle < b.triangle;
     });
     return sides;
@@ -58,7 +58,7 @@ double cotangent(Point2 a, Point2 b) { return (a.x * b.x + a.y * b.y) / std::abs
 /// curvature.
 class BentTriangle {
 public:
-    BentTriangle(const Triangle& triangle, std::uint32_t index, const std::vector<Side>& sides,
+    BentTriangle(const Triangle& triangle, std::uint32_t index, const std::vector<TriangleSide>& sides,
                  const std::vector<Vec3>& positions)
     {
         const auto at = [&](std::uint32_t node) { return to_double(positions[node]); };
@@ -74,10 +74,10 @@ public:
             const std::uint32_t i = triangle[k], j = triangle[(k + 1) % 3];
             const auto other = std::find_if(
                 std::lower_bound(sides.begin(), sides.end(), std::minmax(i, j),
-                                 [](const Side& s, auto pair) {
+                                 [](const TriangleSide& s, auto pair) {
                                      return s.i != pair.first ? s.i < pair.first : s.j < pair.second;
                                  }),
-                sides.end(), [&](const Side& s) {
+                sides.end(), [&](const TriangleSide& s) {
                     return s.i != std::min(i, j) || s.j != std::max(i, j) || s.triangle != index;
                 });
             const bool exists =
@@ -202,7 +202,7 @@ void add_bending(std::vector<Spring>& springs, const SheetShape& sheet, double b
 void add_bending(std::vector<Spring>& springs, std::span<const Triangle> triangles,
                  const std::vector<Vec3>& positions, double bending_stiffness)
 {
-    const std::vector<Side> sides = sides_of(triangles);
+    const std::vector<TriangleSide> sides = sides_of(triangles);
     std::vector<PairWeight> weights;
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
         const BentTriangle triangle(triangles[t], t, sides, positions);

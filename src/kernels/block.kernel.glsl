@@ -80,6 +80,12 @@ KERNEL real reciprocal(real a)
     return r * r;
 }
 
+// The larger of two, and not a number when one of them is not, where `largest` takes the other: of what is reported.
+KERNEL real larger(real a, real b)
+{
+    return choose(a >= b, a, choose(b >= a, b, a + b));
+}
+
 // A = L D L^T, kept as the inverse pivots (xx, yy, zz) and the entries of L below them. A stiff sheet is stiff in its
 // plane and nearly free across it, so that the last pivot is what rounding left of a difference: it is never taken for
 // less than `least` (the node's inertia, a lower bound by theory) or what rounding can tell apart. An empty block has

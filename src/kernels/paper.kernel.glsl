@@ -303,14 +303,14 @@ KERNEL void paper_end()
     real iterations = scalar(scalar_iterations), count = scalar(scalar_rows_left), residual = real(0.0f);
     if (scalar(scalar_rows) > 0.0f) {
         real load = scalar(scalar_right_side), left = load > 0.0f ? scalar(scalar_best) * reciprocal(load) : real(0.0f);
-        residual = left > 0.0f ? left * inverse_sqrt(left) : real(0.0f);
+        residual = left <= 0.0f ? real(0.0f) : left * inverse_sqrt(left);
     }
     set_scalar(scalar_solves, scalar(scalar_solves) + real(1.0f));
     set_scalar(scalar_iterations_sum, scalar(scalar_iterations_sum) + iterations);
     set_scalar(scalar_iterations_max, largest(scalar(scalar_iterations_max), iterations));
     set_scalar(scalar_iterations_last, iterations);
     set_scalar(scalar_residual_last, residual);
-    set_scalar(scalar_residual_max, largest(scalar(scalar_residual_max), residual));
+    set_scalar(scalar_residual_max, larger(scalar(scalar_residual_max), residual));
     set_scalar(scalar_active_sum, scalar(scalar_active_sum) + count);
     set_scalar(scalar_active_max, largest(scalar(scalar_active_max), count));
     set_scalar(scalar_active_last, count);

@@ -111,7 +111,7 @@ KERNEL void newton_check()
     real load = scalar(scalar_load);
     real left = load > 0.0f ? scalar(scalar_slope) * reciprocal(load) : real(0.0f);
     set_scalar(scalar_newton, newton);
-    set_scalar(scalar_residual_last, left > 0.0f ? left * inverse_sqrt(left) : real(0.0f));
+    set_scalar(scalar_residual_last, left <= 0.0f ? real(0.0f) : left * inverse_sqrt(left));
     bool done = left <= newton_tolerance() * newton_tolerance() || !(scalar(scalar_step) > 0.0f);
     if (done) set_scalar(scalar_newton_done, real(1.0f));
 }
@@ -132,7 +132,7 @@ KERNEL void solve_end()
     set_scalar(scalar_newton_max, largest(scalar(scalar_newton_max), newton));
     set_scalar(scalar_iterations_sum, scalar(scalar_iterations_sum) + iterations);
     set_scalar(scalar_iterations_max, largest(scalar(scalar_iterations_max), iterations));
-    set_scalar(scalar_residual_max, largest(scalar(scalar_residual_max), residual));
+    set_scalar(scalar_residual_max, larger(scalar(scalar_residual_max), residual));
     // The implicit step's own balance: springs give up S - S', contact and inertia's surplus f . t is worked against, and
     // a converged step loses nothing but what its length costs. The rest was lost, or won, by not converging.
     real springs = total(sum_spring_energy), work = total(sum_lost);

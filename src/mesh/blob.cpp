@@ -32,7 +32,7 @@ constexpr std::array limbs = {
     Limb{{-0.11, 0.19, 0.01}, 0.105, {-0.17, 0.085, 0.10}, 0.085, 0.07},  // legs
     Limb{{0.11, 0.19, 0.01}, 0.105, {0.17, 0.085, 0.10}, 0.085, 0.07},    //
 };
-constexpr Bounds bounds = {{-0.46, -0.02, -0.22}, {0.46, 1.02, 0.26}};
+constexpr Bounds figure_bounds = {{-0.46, -0.02, -0.22}, {0.46, 1.02, 0.26}};
 
 FieldSample limb_distance(const Limb& limb, Vec3d point)
 {
@@ -68,7 +68,7 @@ SurfaceMesh blob_mesh(const BlobOptions& options)
 {
     require_length("blob.height", options.height);
     require_count("blob.vertices", options.vertices, 1000, 500'000);
-    SurfaceMesh mesh = implicit_surface_mesh("blob.vertices", figure, bounds, options.vertices);
+    SurfaceMesh mesh = implicit_surface_mesh("blob.vertices", figure, figure_bounds, options.vertices);
 
     const MeshReport report = inspect_mesh(mesh);
     const Vec3d middle = (report.bounds_min + report.bounds_max) * 0.5;

@@ -12,7 +12,7 @@
 namespace pliant {
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
+constexpr double full_turn = 2 * std::numbers::pi;
 
 /// The four corners counter-clockwise seen from the front, cut from a to c.
 void add_quad(SurfaceMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d)
@@ -37,7 +37,7 @@ SurfaceMesh lathe(double top, const std::vector<Parallel>& circles, double botto
     for (const Parallel& circle : circles)
         for (std::uint32_t k = 0; k < segments; ++k) {
             // Minus: from +x towards -z, counter-clockwise seen from above.
-            const double angle = -turn * k / segments;
+            const double angle = -full_turn * k / segments;
             mesh.vertices.push_back(
                 to_float({circle.radius * std::cos(angle), circle.y, circle.radius * std::sin(angle)}));
         }
@@ -146,7 +146,7 @@ SurfaceMesh torus_mesh(const TorusOptions& options)
     mesh.triangles.reserve(2 * std::size_t{around} * tube);
     for (std::uint32_t i = 0; i < around; ++i)
         for (std::uint32_t j = 0; j < tube; ++j) {
-            const double along = -turn * i / around, across = turn * j / tube;
+            const double along = -full_turn * i / around, across = full_turn * j / tube;
             const double distance = options.major_radius + options.minor_radius * std::cos(across);
             mesh.vertices.push_back(
                 to_float({distance * std::cos(along), options.minor_radius * std::sin(across),

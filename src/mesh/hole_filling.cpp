@@ -15,7 +15,7 @@ namespace {
 
 using Loop = std::vector<std::uint32_t>;
 
-constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t no_side = std::numeric_limits<std::size_t>::max();
 constexpr std::size_t longest_loop = 400;  // the time goes with its cube: 10 million triangles are weighed
 
 std::size_t previous_corner(std::size_t corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
@@ -49,14 +49,14 @@ public:
                 done[side] = true;
                 loop.push_back(vertex(side));
                 side = next(side);
-            } while (side != none && !done[side]);
+            } while (side != no_side && !done[side]);
             if (side == start) split(loop, loops);
         }
         return loops;
     }
 
 private:
-    static constexpr std::size_t boundary = none, barrier = none - 1;
+    static constexpr std::size_t boundary = no_side, barrier = no_side - 1;
 
     std::uint32_t vertex(std::size_t corner) const { return mesh_.triangles[corner / 3][corner % 3]; }
 
@@ -66,10 +66,10 @@ private:
         for (std::size_t steps = 0; steps < across_.size(); ++steps) {
             side = previous_corner(side);
             if (across_[side] == boundary) return side;
-            if (across_[side] == barrier) return none;
+            if (across_[side] == barrier) return no_side;
             side = across_[side];
         }
-        return none;
+        return no_side;
     }
 
     /// A loop that passes a vertex twice is two loops.
@@ -133,7 +133,7 @@ private:
         const std::size_t n = loop.size();
         constexpr double never = std::numeric_limits<double>::infinity();
         std::vector<double> best(n * n, 0);
-        std::vector<std::size_t> tip(n * n, none);
+        std::vector<std::size_t> tip(n * n, no_side);
         for (std::size_t span = 2; span < n; ++span)
             for (std::size_t i = 0; i + span < n; ++i) {
                 const std::size_t j = i + span;

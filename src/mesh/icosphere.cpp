@@ -14,18 +14,18 @@ namespace {
 
 constexpr double golden = 1.618033988749894848;  // (1 + sqrt 5) / 2
 
-constexpr std::array<Vec3d, 12> corners = {{{0, 1, golden},
-                                            {0, -1, golden},
-                                            {0, 1, -golden},
-                                            {0, -1, -golden},
-                                            {1, golden, 0},
-                                            {-1, golden, 0},
-                                            {1, -golden, 0},
-                                            {-1, -golden, 0},
-                                            {golden, 0, 1},
-                                            {-golden, 0, 1},
-                                            {golden, 0, -1},
-                                            {-golden, 0, -1}}};
+constexpr std::array<Vec3d, 12> icosahedron = {{{0, 1, golden},
+                                                {0, -1, golden},
+                                                {0, 1, -golden},
+                                                {0, -1, -golden},
+                                                {1, golden, 0},
+                                                {-1, golden, 0},
+                                                {1, -golden, 0},
+                                                {-1, -golden, 0},
+                                                {golden, 0, 1},
+                                                {-golden, 0, 1},
+                                                {golden, 0, -1},
+                                                {-golden, 0, -1}}};
 
 Vec3d unit(Vec3d v) { return v * (1 / std::sqrt(dot(v, v))); }
 
@@ -39,9 +39,9 @@ Vec3d on_arc(Vec3d a, Vec3d b, double t)
 /// The 20 triples of corners at the distance of an edge, facing outward.
 std::vector<Triangle> icosahedron_faces()
 {
-    constexpr double edge = 4;  // squared, of `corners`
+    constexpr double edge = 4;  // squared, of `icosahedron`
     const auto near = [](std::uint32_t i, std::uint32_t j) {
-        const Vec3d d = corners[i] - corners[j];
+        const Vec3d d = icosahedron[i] - icosahedron[j];
         return std::abs(dot(d, d) - edge) < 0.5;
     };
     std::vector<Triangle> faces;
@@ -49,7 +49,7 @@ std::vector<Triangle> icosahedron_faces()
         for (std::uint32_t j = i + 1; j < 12; ++j)
             for (std::uint32_t k = j + 1; k < 12; ++k) {
                 if (!near(i, j) || !near(j, k) || !near(k, i)) continue;
-                const bool outward = dot(corners[i], cross(corners[j], corners[k])) > 0;
+                const bool outward = dot(icosahedron[i], cross(icosahedron[j], icosahedron[k])) > 0;
                 faces.push_back(outward ? Triangle{i, j, k} : Triangle{i, k, j});
             }
     return faces;
@@ -59,7 +59,7 @@ class Icosphere {
 public:
     explicit Icosphere(const IcosphereOptions& options) : radius_(options.radius), f_(options.frequency)
     {
-        for (const Vec3d corner : corners) add(unit(corner));
+        for (const Vec3d corner : icosahedron) add(unit(corner));
         for (const Triangle& face : icosahedron_faces()) add_face(face);
     }
     SurfaceMesh take() { return std::move(mesh_); }
@@ -80,7 +80,7 @@ private:
         const auto [found, is_new] = edges_.try_emplace({low, high}, std::uint32_t(mesh_.vertices.size()));
         if (is_new)
             for (std::uint32_t i = 1; i < f_; ++i)
-                add(on_arc(unit(corners[low]), unit(corners[high]), double(i) / f_));
+                add(on_arc(unit(icosahedron[low]), unit(icosahedron[high]), double(i) / f_));
         return found->second + (a < b ? step : f_ - step) - 1;
     }
 
@@ -107,8 +107,8 @@ private:
     /// The mean over the three ways to divide: along the arcs parallel to each side.
     Vec3d inner(const Triangle& face, std::uint32_t i, std::uint32_t j) const
     {
-        const std::array<Vec3d, 3> corner = {unit(corners[face[0]]), unit(corners[face[1]]),
-                                             unit(corners[face[2]])};
+        const std::array<Vec3d, 3> corner = {unit(icosahedron[face[0]]), unit(icosahedron[face[1]]),
+                                             unit(icosahedron[face[2]])};
         const std::array<double, 3> weight = {double(f_ - i) / f_, double(i - j) / f_, double(j) / f_};
         Vec3d sum;
         for (std::size_t k = 0; k < 3; ++k) {

@@ -16,7 +16,7 @@
 namespace pliant {
 namespace {
 
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t no_cell = std::numeric_limits<std::uint32_t>::max();
 constexpr double steepest = 1.25;  // of a field
 
 class SurfaceNet {
@@ -38,7 +38,7 @@ public:
     SurfaceMesh build()
     {
         std::vector<double> low = corner_layer(0), high;
-        std::vector<std::uint32_t> below(nx_ * ny_, none), cells;
+        std::vector<std::uint32_t> below(nx_ * ny_, no_cell), cells;
         for (std::size_t z = 0; z < nz_; ++z) {
             high = corner_layer(z + 1);
             cells = cell_layer(low, high, z);
@@ -77,7 +77,7 @@ private:
     std::vector<std::uint32_t> cell_layer(const std::vector<double>& low, const std::vector<double>& high,
                                           std::size_t z)
     {
-        std::vector<std::uint32_t> cells(nx_ * ny_, none);
+        std::vector<std::uint32_t> cells(nx_ * ny_, no_cell);
         for (std::size_t y = 0; y < ny_; ++y)
             for (std::size_t x = 0; x < nx_; ++x) {
                 std::array<double, 8> value;

@@ -10,7 +10,7 @@
 namespace pliant {
 namespace {
 
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t no_vertex = std::numeric_limits<std::uint32_t>::max();
 
 /// A cube of a grid, by whole numbers that may be larger than any integer type.
 struct Cell {
@@ -37,7 +37,7 @@ public:
         : vertices_(vertices),
           tolerance_(tolerance),
           size_(cell_size(vertices, tolerance)),
-          next_(vertices.size(), none)
+          next_(vertices.size(), no_vertex)
     {
         firsts_.reserve(vertices.size());
     }
@@ -46,14 +46,14 @@ public:
     std::uint32_t near(std::uint32_t i) const
     {
         const Cell cell = cell_of(i);
-        std::uint32_t best = none;
+        std::uint32_t best = no_vertex;
         const int reach = size_ > 0 ? 1 : 0;
         for (int x = -reach; x <= reach; ++x)
             for (int y = -reach; y <= reach; ++y)
                 for (int z = -reach; z <= reach; ++z) {
                     const auto found = firsts_.find({cell.x + x, cell.y + y, cell.z + z});
                     if (found == firsts_.end()) continue;
-                    for (std::uint32_t k = found->second; k != none; k = next_[k])
+                    for (std::uint32_t k = found->second; k != no_vertex; k = next_[k])
                         if (within(i, k)) best = std::min(best, k);
                 }
         return best;
@@ -100,7 +100,7 @@ private:
 /// Removes the vertices that map to none, and gives the triangles the new numbers of the others.
 void renumber(SurfaceMesh& mesh, std::vector<std::uint32_t>& stands_for)
 {
-    std::vector<std::uint32_t> numbers(mesh.vertices.size(), none);
+    std::vector<std::uint32_t> numbers(mesh.vertices.size(), no_vertex);
     std::uint32_t count = 0;
     for (std::uint32_t i = 0; i < mesh.vertices.size(); ++i)
         if (stands_for[i] == i) {
@@ -121,8 +121,8 @@ std::size_t weld_vertices(SurfaceMesh& mesh, double tolerance)
     Kept kept(mesh.vertices, tolerance);
     for (std::uint32_t i = 0; i < count; ++i) {
         const std::uint32_t earlier = kept.near(i);
-        stands_for[i] = earlier == none ? i : earlier;
-        if (earlier == none) kept.keep(i);
+        stands_for[i] = earlier == no_vertex ? i : earlier;
+        if (earlier == no_vertex) kept.keep(i);
     }
     renumber(mesh, stands_for);
     return count - mesh.vertices.size();
@@ -131,7 +131,7 @@ std::size_t weld_vertices(SurfaceMesh& mesh, double tolerance)
 std::size_t drop_isolated_vertices(SurfaceMesh& mesh)
 {
     const std::size_t count = mesh.vertices.size();
-    std::vector<std::uint32_t> stands_for(count, none);
+    std::vector<std::uint32_t> stands_for(count, no_vertex);
     for (const Triangle& triangle : mesh.triangles)
         for (const std::uint32_t vertex : triangle) stands_for[vertex] = vertex;
     renumber(mesh, stands_for);

@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "pliant/extremes.hpp"
+
 namespace pliant {
 namespace {
 
@@ -48,7 +50,7 @@ void StatisticsFile::add(const Report& report, double wall_milliseconds)
     if (!report.bodies.empty()) {
         double error = 0;
         for (const BodyMeasures& body : report.bodies)
-            if (std::abs(body.error) > std::abs(error)) error = body.error;
+            if (!(std::abs(body.error) <= std::abs(error))) error = body.error;
         std::snprintf(line, sizeof line, ",%.6g", error);
         file_.stream() << line;
     }
@@ -62,15 +64,15 @@ void StatisticsFile::add(const Report& report, double wall_milliseconds)
 void RunSummary::add_frame(const Report& report)
 {
     frames_.push_back({report.simulated_seconds, report.measures.max_stretch, report.measures.mean_stretch});
-    max_stretch_peak_ = std::max(max_stretch_peak_, report.measures.max_stretch);
-    max_penetration_ = std::max(max_penetration_, report.measures.max_penetration);
+    max_stretch_peak_ = larger(max_stretch_peak_, report.measures.max_stretch);
+    max_penetration_ = larger(max_penetration_, report.measures.max_penetration);
 }
 
 double RunSummary::max_stretch(double until) const
 {
     double most = frames_.empty() ? 0 : frames_.back().max;
     for (const FrameStretch& frame : frames_)
-        if (frame.time > until - 1) most = std::max(most, frame.max);
+        if (frame.time > until - 1) most = larger(most, frame.max);
     return most;
 }
 
@@ -88,8 +90,8 @@ std::map<std::string, double> RunSummary::values(Simulation& simulation) const
     double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
     for (std::size_t c = 0; c < simulation.scene().cloth_count(); ++c)
         for (const Vec3& x : simulation.positions(c)) {
-            lowest = std::min<double>(lowest, x.y);
-            highest = std::max<double>(highest, x.y);
+            lowest = smaller(lowest, x.y);
+            highest = larger(highest, x.y);
         }
     const double wall = std::max(report.wall_seconds, 1e-9);
     double ratio = 0;

@@ -3,6 +3,8 @@
 #include <array>
 #include <span>
 
+#include "backend/vulkan/device_limits.hpp"
+#include "pliant/error.hpp"
 #include "render/legend.hpp"
 
 namespace pliant::vulkan {
@@ -160,12 +162,12 @@ vk::raii::DescriptorSetLayout make_frame_set(const Device& device)
     return {device.handle(), vk::DescriptorSetLayoutCreateInfo({}, bindings)};
 }
 
-vk::raii::DescriptorSetLayout make_cloth_set(const Device& device)
+vk::raii::DescriptorSetLayout make_cloth_set(const Device& device, std::span<const std::uint32_t> of,
+                                             vk::ShaderStageFlagBits stage)
 {
-    std::array<vk::DescriptorSetLayoutBinding, cloth_binding_count> bindings;
-    for (std::uint32_t i = 0; i < bindings.size(); ++i)
-        bindings[i] = {i, vk::DescriptorType::eStorageBuffer, 1,
-                       vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eCompute};
+    std::vector<vk::DescriptorSetLayoutBinding> bindings;
+    for (const std::uint32_t binding : of)
+        bindings.emplace_back(binding, vk::DescriptorType::eStorageBuffer, 1, stage);
     return {device.handle(), vk::DescriptorSetLayoutCreateInfo({}, bindings)};
 }
 
@@ -181,7 +183,7 @@ vk::raii::Pipeline make_surface(const Device& device, vk::PipelineLayout layout)
 {
     const auto module = device.make_shader(cloth_surface_comp);
     const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main");
-    return {device.handle(), nullptr, vk::ComputePipelineCreateInfo({}, stage, layout)};
+    return {device.handle(), device.pipelines().cache(), vk::ComputePipelineCreateInfo({}, stage, layout)};
 }
 
 Recipe recipe_of(Drawn drawn)
@@ -214,6 +216,21 @@ Recipe recipe_of(Drawn drawn)
     return {};
 }
 
+std::shared_ptr<Device> checked(std::shared_ptr<Device> device)
+{
+    const vk::PhysicalDeviceLimits limits = device->physical().getProperties().limits;
+    for (const PictureShader& shader : picture_shaders()) {
+        const LayoutNeeds layout{static_cast<std::uint32_t>(shader.cloth_bindings.size()), 1};
+        const std::string beyond = beyond_limits(limits, needs_of(shader.code), layout);
+        if (!beyond.empty())
+            throw Error(ErrorKind::device_failure, "the Vulkan device " + device->info().name +
+                                                       " cannot draw pictures with the shader " +
+                                                       shader.name + ": " + beyond +
+                                                       "; choose another with --device");
+    }
+    return device;
+}
+
 template <class T>
 Buffer make_filled(const Device& device, const std::vector<T>& data, vk::BufferUsageFlags usage,
                    const char* name)
@@ -225,15 +242,41 @@ Buffer make_filled(const Device& device, const std::vector<T>& data, vk::BufferU
 
 }  // namespace
 
+std::span<const PictureShader> picture_shaders()
+{
+    static const PictureShader shaders[] = {{"backdrop.frag", backdrop_frag, drawn_bindings},
+                                            {"backdrop.vert", backdrop_vert, drawn_bindings},
+                                            {"cloth.frag", cloth_frag, drawn_bindings},
+                                            {"cloth.vert", cloth_vert, drawn_bindings},
+                                            {"cloth_shadow.vert", cloth_shadow_vert, drawn_bindings},
+                                            {"cloth_surface.comp", cloth_surface_comp, surface_bindings},
+                                            {"ground.frag", ground_frag, drawn_bindings},
+                                            {"ground.vert", ground_vert, drawn_bindings},
+                                            {"legend.frag", legend_frag, drawn_bindings},
+                                            {"legend.vert", legend_vert, drawn_bindings},
+                                            {"line.frag", line_frag, drawn_bindings},
+                                            {"line.vert", line_vert, drawn_bindings},
+                                            {"point.frag", point_frag, drawn_bindings},
+                                            {"point.vert", point_vert, drawn_bindings},
+                                            {"shape.frag", shape_frag, drawn_bindings},
+                                            {"shape.vert", shape_vert, drawn_bindings},
+                                            {"shape_shadow.vert", shape_shadow_vert, drawn_bindings},
+                                            {"wire.frag", wire_frag, drawn_bindings},
+                                            {"wire.vert", wire_vert, drawn_bindings}};
+    return shaders;
+}
+
 PictureKit::PictureKit(std::shared_ptr<Device> device, vk::RenderPass pass, vk::SampleCountFlagBits samples)
-    : device_(std::move(device)),
+    : device_(checked(std::move(device))),
       pass_(pass),
       samples_(samples),
       shadow_map_(*device_),
       frame_set_(make_frame_set(*device_)),
-      cloth_set_(make_cloth_set(*device_)),
-      layout_(make_layout(*device_, *frame_set_, *cloth_set_)),
-      surface_(make_surface(*device_, *layout_)),
+      drawn_set_(make_cloth_set(*device_, drawn_bindings, vk::ShaderStageFlagBits::eVertex)),
+      surface_set_(make_cloth_set(*device_, surface_bindings, vk::ShaderStageFlagBits::eCompute)),
+      layout_(make_layout(*device_, *frame_set_, *drawn_set_)),
+      surface_layout_(make_layout(*device_, *frame_set_, *surface_set_)),
+      surface_(make_surface(*device_, *surface_layout_)),
       pipelines_{nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr},
       shapes_(make_shape_meshes()),
       shape_vertices_(

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <span>
 
 #include "render/picture_pass.hpp"
 #include "render/shadow_map.hpp"
@@ -27,13 +29,16 @@ constexpr std::size_t drawn_count = 10;
 class PictureKit {
 public:
     /// For targets like this one: its pass and samples, any size.
+    /// Throws Error(device_failure) where a shader is beyond the limits of the device.
     PictureKit(std::shared_ptr<Device> device, vk::RenderPass pass, vk::SampleCountFlagBits samples);
 
     const std::shared_ptr<Device>& device() const { return device_; }
     const ShadowMap& shadow_map() const { return shadow_map_; }
     vk::DescriptorSetLayout frame_set() const { return *frame_set_; }
-    vk::DescriptorSetLayout cloth_set() const { return *cloth_set_; }
+    vk::DescriptorSetLayout drawn_set() const { return *drawn_set_; }
+    vk::DescriptorSetLayout surface_set() const { return *surface_set_; }
     vk::PipelineLayout layout() const { return *layout_; }
+    vk::PipelineLayout surface_layout() const { return *surface_layout_; }
     /// Made when it is first asked for. Null for wires on a device that cannot draw them.
     vk::Pipeline pipeline(Drawn drawn) const;
     /// Computes what is seen of a cloth's nodes, in groups of `surface_group`: shaders/cloth_surface.comp.
@@ -49,9 +54,10 @@ private:
     vk::RenderPass pass_;
     vk::SampleCountFlagBits samples_;
     ShadowMap shadow_map_;
-    vk::raii::DescriptorSetLayout frame_set_;  ///< set 0: uniforms and shadow map
-    vk::raii::DescriptorSetLayout cloth_set_;  ///< set 1: shaders/cloth_nodes.glsl
-    vk::raii::PipelineLayout layout_;          ///< one for all; push constants for what needs them
+    vk::raii::DescriptorSetLayout frame_set_;                ///< set 0: uniforms and shadow map
+    vk::raii::DescriptorSetLayout drawn_set_, surface_set_;  ///< set 1, see drawn_bindings
+    vk::raii::PipelineLayout layout_;  ///< one for all that is drawn; push constants for what needs them
+    vk::raii::PipelineLayout surface_layout_;  ///< with the same push constants
     vk::raii::Pipeline surface_;
     mutable std::array<vk::raii::Pipeline, drawn_count> pipelines_;
     ShapeMeshes shapes_;
@@ -59,7 +65,21 @@ private:
 };
 
 constexpr std::uint32_t push_constant_bytes = 80;
+
+/// Storage buffers of shaders/cloth_nodes.glsl: what is drawn binds some of them, cloth_surface.comp others.
+/// Both together would be more than some devices can bind at once.
 constexpr std::uint32_t cloth_binding_count = 11;
+constexpr std::array<std::uint32_t, 7> drawn_bindings{0, 1, 2, 3, 5, 6, 7};
+constexpr std::array<std::uint32_t, 7> surface_bindings{0, 1, 2, 4, 8, 9, 10};
+
+/// A shader of pictures, and which buffers of a cloth its layout binds.
+struct PictureShader {
+    const char* name;
+    std::span<const std::uint32_t> code;
+    std::span<const std::uint32_t> cloth_bindings;
+};
+std::span<const PictureShader> picture_shaders();
+
 constexpr vk::ShaderStageFlags push_constant_stages =
     vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment | vk::ShaderStageFlagBits::eCompute;
 

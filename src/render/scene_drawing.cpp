@@ -79,9 +79,11 @@ SceneDrawing::SceneDrawing(std::shared_ptr<const PictureKit> kit, const Scene& s
     const vk::DescriptorPoolSize sizes[] = {
         {vk::DescriptorType::eUniformBuffer, slots},
         {vk::DescriptorType::eCombinedImageSampler, slots},
-        {vk::DescriptorType::eStorageBuffer, slots * cloth_binding_count * std::max(1u, cloths)}};
+        {vk::DescriptorType::eStorageBuffer,
+         slots * static_cast<std::uint32_t>(drawn_bindings.size() + surface_bindings.size()) *
+             std::max(1u, cloths)}};
     pool_ = {device_->handle(),
-             {vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, slots * (1 + cloths), sizes}};
+             {vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, slots * (1 + 2 * cloths), sizes}};
     for (unsigned k = 0; k < slots; ++k) slots_.push_back(make_slot());
     for (std::size_t i = 0; i < topologies.size(); ++i)
         cloths_.push_back(make_cloth(scene.cloth(i), topologies[i], slots));
@@ -115,6 +117,14 @@ SceneDrawing::ClothDrawing SceneDrawing::make_cloth(const Cloth& cloth, const Cl
             if (node >= topology.node_count)
                 refuse("a triangle of a picture names the node " + std::to_string(node) + " of " +
                        std::to_string(topology.node_count));
+    const std::uint32_t groups =
+                            (topology.node_count + PictureKit::surface_group - 1) / PictureKit::surface_group,
+                        most = device_->physical().getProperties().limits.maxComputeWorkGroupCount[0];
+    if (groups > most)
+        throw Error(ErrorKind::device_failure,
+                    "a cloth of " + std::to_string(topology.node_count) + " nodes cannot be drawn on " +
+                        device_->info().name + ": its limit maxComputeWorkGroupCount[0] is " +
+                        std::to_string(most) + ", and " + std::to_string(groups) + " is needed");
     ClothDrawing drawing;
     drawing.node_count = topology.node_count;
     drawing.rows = topology.rows;
@@ -143,10 +153,13 @@ SceneDrawing::ClothDrawing SceneDrawing::make_cloth(const Cloth& cloth, const Cl
             for (std::size_t k = 0; k < 3; ++k) ring.add(t[k], t[(k + 1) % 3], t[(k + 2) % 3]);
         drawing.ring = make_filled(ring.packed(), "triangles around nodes");
     }
-    const vk::DescriptorSetLayout layout = kit_->cloth_set();
-    for (unsigned k = 0; k < slots; ++k)
-        drawing.slots.emplace_back().set =
-            std::move(vk::raii::DescriptorSets(device_->handle(), {*pool_, layout}).front());
+    const vk::DescriptorSetLayout layouts[] = {kit_->drawn_set(), kit_->surface_set()};
+    for (unsigned k = 0; k < slots; ++k) {
+        vk::raii::DescriptorSets sets(device_->handle(), {*pool_, layouts});
+        ClothSlot& slot = drawing.slots.emplace_back();
+        slot.drawn_set = std::move(sets.front());
+        slot.surface_set = std::move(sets.back());
+    }
     return drawing;
 }
 
@@ -220,12 +233,13 @@ void SceneDrawing::record_surfaces(const vk::raii::CommandBuffer& commands, unsi
             Access::eShaderWrite | Access::eTransferWrite, Stage::eComputeShader,
             Access::eShaderRead | Access::eShaderWrite);
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, kit_->surface());
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, kit_->layout(), 0, *slots_[slot].frame_set,
-                                {});
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, kit_->surface_layout(), 0,
+                                *slots_[slot].frame_set, {});
     const bool strain = slots_[slot].overlays.has(Overlay::strain);
     for (const ClothDrawing& cloth : cloths_) {
         const ClothSlot& of = cloth.slots[slot];
-        commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, kit_->layout(), 1, *of.set, {});
+        commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, kit_->surface_layout(), 1,
+                                    *of.surface_set, {});
         push(commands, SurfaceStyle{cloth.node_count, cloth.rows, cloth.columns, of.stride,
                                     strain && cloth.neighbours.size > 0 && !of.has_values ? 1u : 0u});
         commands.dispatch((cloth.node_count + PictureKit::surface_group - 1) / PictureKit::surface_group, 1,
@@ -272,8 +286,15 @@ void SceneDrawing::bind_cloth(const ClothDrawing& cloth, ClothSlot& slot, const 
     std::array<vk::DescriptorBufferInfo, cloth_binding_count> infos;
     for (std::size_t k = 0; k < infos.size(); ++k)
         infos[k] = vk::DescriptorBufferInfo(wanted[k], 0, VK_WHOLE_SIZE);
-    device_->handle().updateDescriptorSets(
-        vk::WriteDescriptorSet(*slot.set, 0, 0, vk::DescriptorType::eStorageBuffer, {}, infos), {});
+    std::vector<vk::WriteDescriptorSet> writes;
+    const auto write = [&](vk::DescriptorSet set, std::span<const std::uint32_t> bindings) {
+        for (const std::uint32_t binding : bindings)
+            writes.emplace_back(set, binding, 0, 1, vk::DescriptorType::eStorageBuffer, nullptr,
+                                &infos[binding]);
+    };
+    write(*slot.drawn_set, drawn_bindings);
+    write(*slot.surface_set, surface_bindings);
+    device_->handle().updateDescriptorSets(writes, {});
 }
 
 void SceneDrawing::upload(const ClothDrawing& cloth, ClothSlot& slot, const HostCloth& frame) const
@@ -323,7 +344,7 @@ void SceneDrawing::bind(const vk::raii::CommandBuffer& commands, Drawn drawn) co
 
 void SceneDrawing::bind_set(const vk::raii::CommandBuffer& commands, const ClothSlot& slot) const
 {
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, kit_->layout(), 1, *slot.set, {});
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, kit_->layout(), 1, *slot.drawn_set, {});
 }
 
 void SceneDrawing::record_shadows(const vk::raii::CommandBuffer& commands, unsigned slot) const

@@ -98,7 +98,7 @@ private:
         Buffer values, held, points;  // only for overlays, made when one is there
         std::uint32_t point_count = 0, stride = 0;
         bool has_values = false, has_held = false;
-        vk::raii::DescriptorSet set{nullptr};
+        vk::raii::DescriptorSet drawn_set{nullptr}, surface_set{nullptr};
         std::array<vk::Buffer, cloth_binding_count> bound{};
     };
     /// One cloth on the device.

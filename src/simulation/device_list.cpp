@@ -1,6 +1,8 @@
 // What `pliant info` lists.
+#include <vulkan/vulkan_core.h>
+
 #include "backend/cpu/kernels.hpp"
-#include "backend/vulkan/device.hpp"
+#include "backend/vulkan/device_info.hpp"
 #include "pliant/simulation.hpp"
 
 namespace pliant {
@@ -15,7 +17,7 @@ std::vector<DeviceListing> list_devices()
                                std::to_string(VK_API_VERSION_MINOR(device.api_version)) + ", memory " +
                                mebibytes(device.memory) + ", largest buffer " +
                                mebibytes(device.max_buffer_range) + ", shared memory " +
-                               std::to_string(device.max_shared_memory >> 10) + " KiB"});
+                               std::to_string(device.max_shared_memory >> 10) + " KiB; " + device.promise()});
     std::string sets;
     for (const cpu::Kernels* kernels : cpu::available_kernels())
         sets += (sets.empty() ? "" : ", ") + std::string(kernels->name);

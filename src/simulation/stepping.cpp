@@ -6,6 +6,7 @@
 
 #include "backend/cpu/kernels.hpp"
 #include "kernels/planes.hpp"
+#include "pliant/extremes.hpp"
 #include "simulation/implementation.hpp"
 #include "solve/frame.hpp"
 #include "solve/mass_spring.hpp"
@@ -196,13 +197,13 @@ void Simulation::Implementation::count_solves()
         active_sum += number(scalar_active_sum);
         s.newton_max = std::max(s.newton_max, whole(scalar_newton_max));
         s.iterations_max = std::max(s.iterations_max, whole(scalar_iterations_max));
-        s.residual_max = std::max(s.residual_max, number(scalar_residual_max));
+        s.residual_max = larger(s.residual_max, number(scalar_residual_max));
         s.energy_lost += number(scalar_energy_lost);
         s.active_max = std::max<std::uint64_t>(s.active_max, whole(scalar_active_max));
         s.active_last += whole(scalar_active_last);
         s.newton_last = std::max(s.newton_last, whole(scalar_newton_last));
         s.iterations_last = std::max(s.iterations_last, whole(scalar_iterations_last));
-        s.residual_last = std::max(s.residual_last, number(scalar_residual_last));
+        s.residual_last = larger(s.residual_last, number(scalar_residual_last));
     }
     if (s.solves == 0) return;
     const auto solves = static_cast<double>(s.solves);
@@ -332,9 +333,9 @@ void Simulation::Implementation::take_measures()
     const double g = std::sqrt(dot(scene.gravity, scene.gravity));
     for (std::uint32_t c = 0; c < models.size(); ++c) {
         const MeasureTotals totals = runner->measures(c);
-        m.max_stretch = std::max(m.max_stretch, totals.max_stretch);
-        m.max_penetration = std::max(m.max_penetration, totals.max_penetration);
-        speed2 = std::max(speed2, totals.max_speed2);
+        m.max_stretch = larger(m.max_stretch, totals.max_stretch);
+        m.max_penetration = larger(m.max_penetration, totals.max_penetration);
+        speed2 = larger(speed2, totals.max_speed2);
         stretch_sum += totals.stretch_sum;
         measured_springs += models[c].measured_spring_count();
         m.kinetic_energy += totals.kinetic_energy;
@@ -362,11 +363,11 @@ void Simulation::Implementation::measure_volumes()
         measures.ratio = measures.volume / part.volume;
         measures.error = measures.ratio / value_at(part.options.target, report.simulated_seconds, 1) - 1;
         VolumeReport& all = report.volume;
-        all.error_max = std::max(all.error_max, std::abs(measures.error));
-        all.loss_max = std::max(all.loss_max, -measures.error);
-        all.gain_max = std::max(all.gain_max, measures.error);
-        if (std::abs(measures.error) > part.options.tolerance && report.frames > 0) ++all.misses;
-        loss += std::max(0.0, -measures.error);
+        all.error_max = larger(all.error_max, std::abs(measures.error));
+        all.loss_max = larger(all.loss_max, -measures.error);
+        all.gain_max = larger(all.gain_max, measures.error);
+        if (!(std::abs(measures.error) <= part.options.tolerance) && report.frames > 0) ++all.misses;
+        loss += larger(0, -measures.error);
     }
     if (report.bodies.empty() || report.frames == 0) return;
     loss_sum += loss / static_cast<double>(report.bodies.size());

@@ -7,6 +7,7 @@
 
 #include "physics/measured.hpp"
 #include "test_cloths.hpp"
+#include "test_differences.hpp"
 
 namespace pliant {
 namespace {
@@ -99,16 +100,14 @@ TEST(Energy, WhatTheSolverLosesIsLessThanTwoPerCent)
     const auto most_lost = [&](const NewtonMultigridOptions& options) {
         const auto found = energies(options);
         const double weight = 0.3 * 9.81;  // m g L
-        double most = 0;
-        for (std::size_t k = 0; k < found.size(); ++k)
-            most = std::max(most, std::abs(converged[k] - found[k]) / weight);
-        return most;
+        return test::largest_difference(found, converged) / weight;
     };
     const double usual = most_lost({}), enough = most_lost({.newton_iterations = 12, .linear_iterations = 8});
     test::measured("energy lost by the default, over m g L", usual);
     test::measured("energy lost by 12 iterations of 8 V-cycles, over m g L", enough);
     EXPECT_LT(enough, 0.02);
     EXPECT_LT(usual, 0.05);
+    EXPECT_GT(usual, 1e-4);  // steps that are left unsolved are another run
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "../interruption.hpp"
 #include "../progress.hpp"
+#include "../stopwatch.hpp"
 #include "files/atomic_file.hpp"
 #include "pliant/error.hpp"
 #include "render/child_process.hpp"
@@ -79,11 +80,6 @@ std::string draw_figures(const std::filesystem::path& out, const std::vector<Jso
     return "there are no figures, since python3 with matplotlib is not here; install python3-matplotlib and "
            "run the "
            "same command again, which measures nothing twice";
-}
-
-double seconds_since(std::chrono::steady_clock::time_point start)
-{
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 /// Runs what is asked for and not yet done.

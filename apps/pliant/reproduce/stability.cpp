@@ -30,7 +30,7 @@ bool stands(Scene scene, double step, double duration, double most, const Machin
         simulation.advance(1 / scene.time.frame_rate);
         const Report& report = simulation.report();
         if (report.device_lost) throw Error(ErrorKind::device_failure, report.failure);
-        if (!report.finite || report.measures.max_stretch > most) return false;
+        if (!report.finite || !(report.measures.max_stretch <= most)) return false;
     }
     return true;
 }

@@ -14,7 +14,6 @@ namespace pliant::tool {
 namespace {
 
 using Json = nlohmann::json;
-using Kind = Event::Kind;
 
 /// Reads one event, and says where it is when something is wrong with it.
 class EventReader {
@@ -31,6 +30,8 @@ public:
     }
 
 private:
+    using Kind = Event::Kind;
+
     [[noreturn]] void refuse(const std::string& what) const
     {
         throw Error(ErrorKind::bad_input, place_ + what);

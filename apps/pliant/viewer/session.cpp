@@ -1,25 +1,14 @@
 #include "viewer/session.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <utility>
 
 #include "render/stage.hpp"
+#include "stopwatch.hpp"
 
 namespace pliant::tool {
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start)
-{
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-}  // namespace
-
 Method method_of(const std::string& name)
 {
     for (const Method method : {Method::mass_spring, Method::constraint, Method::acad, Method::volume})

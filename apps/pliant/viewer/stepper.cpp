@@ -5,16 +5,10 @@
 #include <utility>
 
 #include "backend/vulkan/device_state.hpp"
+#include "stopwatch.hpp"
 
 namespace pliant::tool {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start)
-{
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 StepNumbers numbers_of(const Report& report, double seconds)
 {

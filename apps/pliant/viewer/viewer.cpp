@@ -3,26 +3,15 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 
 #include "backend/vulkan/device_state.hpp"
 #include "render/image_file.hpp"
+#include "stopwatch.hpp"
 
 namespace pliant::tool {
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start)
-{
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-}  // namespace
-
 Viewer::Viewer(std::unique_ptr<Screen> screen, const SimulationOptions& simulation)
     : screen_(std::move(screen)),
       kit_(std::make_shared<vulkan::PictureKit>(screen_->device(), screen_->pass(), screen_->samples())),

@@ -1,7 +1,11 @@
-// Which buffer of a cloth has which place in the shaders.
+// Which buffer of a cloth has which place in the shaders, and which of them a pass binds: layouts by families
+// of passes, so that none has more than devices of phones and headsets can bind at once.
 #pragma once
 
 #include <cstdint>
+#include <span>
+
+#include "solve/pass.hpp"
 
 namespace pliant::vulkan {
 
@@ -38,7 +42,6 @@ enum class Binding : std::uint32_t {
     body_sums = 28,
     slopes = 29,
 };
-constexpr std::uint32_t binding_count = static_cast<std::uint32_t>(Binding::slopes) + 1;
 
 /// All other bindings are storage buffers.
 constexpr bool is_uniform(Binding binding)
@@ -46,13 +49,22 @@ constexpr bool is_uniform(Binding binding)
     return binding == Binding::parameters || binding == Binding::solver;
 }
 
-/// What every pipeline binds, and so what a device must be able to bind at once.
-constexpr std::uint32_t storage_buffer_count()
-{
-    std::uint32_t count = 0;
-    for (std::uint32_t b = 0; b < binding_count; ++b)
-        if (!is_uniform(static_cast<Binding>(b))) ++count;
-    return count;
-}
+/// Passes that share a layout.
+enum class Family : std::uint32_t {
+    nodes,        ///< what every cloth has, and sheets
+    springs,      ///< passes over lists of springs
+    list_steps,   ///< steps of what has such lists
+    triangles,    ///< passes over the triangles around a node
+    body_forces,  ///< soft bodies: up to the rates of volume
+    body_volume,  ///< and from there on
+    solver,       ///< the constraint solver: what works on its own numbers
+    solver_ends,  ///< and what brings the state there and back
+};
+constexpr std::uint32_t family_count = 8;
+
+/// What the layout of a family binds, in ascending order. Every shader of the family finds there what it uses
+/// (tests/shader_needs_test.cpp).
+std::span<const Binding> bindings_of(Family family);
+Family family_of(Pass pass);
 
 }  // namespace pliant::vulkan

@@ -3,14 +3,12 @@
 #include <bit>
 #include <cstring>
 
+#include "backend/vulkan/float4.hpp"
+
 namespace pliant::vulkan {
 namespace {
 
 using Usage = vk::BufferUsageFlagBits;
-
-struct Float4 {
-    float x = 0, y = 0, z = 0, w = 0;
-};
 
 std::uint32_t bits(double a) { return std::bit_cast<std::uint32_t>(static_cast<float>(a)); }
 

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstring>
 
+#include "backend/vulkan/float4.hpp"
+
 namespace pliant::vulkan {
 namespace {
 
@@ -15,9 +17,6 @@ vk::DescriptorType type_of(Binding binding)
     return is_uniform(binding) ? vk::DescriptorType::eUniformBuffer : vk::DescriptorType::eStorageBuffer;
 }
 
-struct Float4 {
-    float x = 0, y = 0, z = 0, w = 0;
-};
 Float4 float4(Vector3<float> a, float w = 0) { return {a.x, a.y, a.z, w}; }
 Float4 float4(Vec3 a, float w) { return {a.x, a.y, a.z, w}; }
 
@@ -33,12 +32,50 @@ struct Parameters {
 
 }  // namespace
 
-vk::raii::DescriptorSetLayout make_cloth_layout(const Device& device)
+vk::raii::DescriptorSetLayout make_cloth_layout(const Device& device, Family family)
 {
     std::vector<vk::DescriptorSetLayoutBinding> bindings;
-    for (std::uint32_t b = 0; b < binding_count; ++b)
-        bindings.emplace_back(b, type_of(static_cast<Binding>(b)), 1, vk::ShaderStageFlagBits::eCompute);
+    for (const Binding binding : bindings_of(family))
+        bindings.emplace_back(static_cast<std::uint32_t>(binding), type_of(binding), 1,
+                              vk::ShaderStageFlagBits::eCompute);
     return {device.handle(), vk::DescriptorSetLayoutCreateInfo({}, bindings)};
+}
+
+bool ClothBuffers::takes(Family family) const
+{
+    switch (family) {
+        case Family::nodes: return true;
+        case Family::springs:
+        case Family::list_steps: return !model_->node_centric();
+        case Family::triangles: return !model_->is_sheet();
+        case Family::body_forces:
+        case Family::body_volume: return model_->is_body();
+        case Family::solver:
+        case Family::solver_ends: return !model_->hierarchy.empty();
+    }
+    return false;
+}
+
+void ClothBuffers::make_sets(const Device& device, std::span<const vk::raii::DescriptorSetLayout> layouts)
+{
+    std::uint32_t storage = 0, uniform = 0, count = 0;
+    for (std::uint32_t f = 0; f < family_count; ++f) {
+        const auto family = static_cast<Family>(f);
+        if (!takes(family)) continue;
+        count += 2;
+        for (const Binding binding : bindings_of(family)) (is_uniform(binding) ? uniform : storage) += 2;
+    }
+    const vk::DescriptorPoolSize sizes[] = {{vk::DescriptorType::eUniformBuffer, uniform},
+                                            {vk::DescriptorType::eStorageBuffer, storage}};
+    pool_ = {device.handle(), vk::DescriptorPoolCreateInfo(
+                                  vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, count, sizes)};
+    for (std::uint32_t f = 0; f < family_count; ++f) {
+        if (!takes(static_cast<Family>(f))) continue;
+        const vk::DescriptorSetLayout both[] = {*layouts[f], *layouts[f]};
+        for (auto& set :
+             vk::raii::DescriptorSets(device.handle(), vk::DescriptorSetAllocateInfo(*pool_, both)))
+            sets_[f].push_back(std::move(set));
+    }
 }
 
 void ClothBuffers::write(const Device& device, std::span<const Vec3> positions,
@@ -72,7 +109,7 @@ Buffer ClothBuffers::filled(const Device& device, const void* data, std::size_t 
 }
 
 ClothBuffers::ClothBuffers(const Device& device, const ClothModel& model,
-                           const vk::raii::DescriptorSetLayout& layout)
+                           std::span<const vk::raii::DescriptorSetLayout> layouts)
     : model_(&model), tree_(model.node_count()), solver_(device, model), body_(device, model)
 {
     const std::size_t nodes = model.node_count();
@@ -128,15 +165,7 @@ ClothBuffers::ClothBuffers(const Device& device, const ClothModel& model,
             filled(device, around.data(), around.size() * sizeof(around[0]), "triangles around nodes");
     }
 
-    const vk::DescriptorPoolSize sizes[] = {{vk::DescriptorType::eUniformBuffer, 2 * 2},
-                                            {vk::DescriptorType::eStorageBuffer, 2 * (binding_count - 2)}};
-    pool_ = {device.handle(),
-             vk::DescriptorPoolCreateInfo(vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 2, sizes)};
-    const vk::DescriptorSetLayout layouts[] = {*layout, *layout};
-    for (auto& set :
-         vk::raii::DescriptorSets(device.handle(), vk::DescriptorSetAllocateInfo(*pool_, layouts)))
-        sets_.push_back(std::move(set));
-
+    make_sets(device, layouts);
     for (std::uint32_t parity = 0; parity < 2; ++parity) {
         const std::pair<Binding, const Buffer*> bound[] = {
             {Binding::parameters, &parameters_},
@@ -176,10 +205,15 @@ ClothBuffers::ClothBuffers(const Device& device, const ClothModel& model,
 void ClothBuffers::bind(const Device& device, std::uint32_t parity, Binding binding, const Buffer& buffer)
 {
     const auto descriptor = buffer.descriptor();
-    device.handle().updateDescriptorSets(
-        vk::WriteDescriptorSet(*sets_[parity], static_cast<std::uint32_t>(binding), 0, 1, type_of(binding),
-                               nullptr, &descriptor),
-        {});
+    for (std::uint32_t f = 0; f < family_count; ++f) {
+        const auto bindings = bindings_of(static_cast<Family>(f));
+        if (sets_[f].empty() || std::find(bindings.begin(), bindings.end(), binding) == bindings.end())
+            continue;
+        device.handle().updateDescriptorSets(
+            vk::WriteDescriptorSet(*sets_[f][parity], static_cast<std::uint32_t>(binding), 0, 1,
+                                   type_of(binding), nullptr, &descriptor),
+            {});
+    }
 }
 
 bool ClothBuffers::make_room_for(const Device& device, Pass pass)
@@ -198,12 +232,7 @@ bool ClothBuffers::make_room_for(const Device& device, Pass pass)
 
 void ClothBuffers::bind_colliders(const Device& device, const Buffer& colliders)
 {
-    const auto descriptor = colliders.descriptor();
-    for (const auto& set : sets_)
-        device.handle().updateDescriptorSets(
-            vk::WriteDescriptorSet(*set, static_cast<std::uint32_t>(Binding::colliders), 0, 1,
-                                   vk::DescriptorType::eStorageBuffer, nullptr, &descriptor),
-            {});
+    for (std::uint32_t parity = 0; parity < 2; ++parity) bind(device, parity, Binding::colliders, colliders);
 }
 
 void ClothBuffers::set_parameters(double step_length, std::uint32_t collider_count, bool colliders_rest,

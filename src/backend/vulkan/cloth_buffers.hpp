@@ -16,15 +16,21 @@
 
 namespace pliant::vulkan {
 
-vk::raii::DescriptorSetLayout make_cloth_layout(const Device& device);
+vk::raii::DescriptorSetLayout make_cloth_layout(const Device& device, Family family);
 
 class ClothBuffers {
 public:
-    ClothBuffers(const Device& device, const ClothModel& model, const vk::raii::DescriptorSetLayout& layout);
+    /// With the layouts by family.
+    ClothBuffers(const Device& device, const ClothModel& model,
+                 std::span<const vk::raii::DescriptorSetLayout> layouts);
 
     const ClothModel& model() const { return *model_; }
     const MeasureTree& tree() const { return tree_; }
-    vk::DescriptorSet set(std::uint32_t parity) const { return *sets_[parity]; }
+    /// Of families whose passes this kind of cloth takes; others have no sets.
+    vk::DescriptorSet set(Family family, std::uint32_t parity) const
+    {
+        return *sets_[static_cast<std::size_t>(family)][parity];
+    }
     void bind_colliders(const Device& device, const Buffer& colliders);
     /// Normals and strains are kept from the first time on that somebody looks at them. True when that is
     /// now: what was recorded with these sets must then be recorded anew.
@@ -52,6 +58,9 @@ public:
     const BodyBuffers& body() const { return body_; }
 
 private:
+    bool takes(Family family) const;
+    void make_sets(const Device& device, std::span<const vk::raii::DescriptorSetLayout> layouts);
+    /// In all sets of this parity that have the binding.
     void bind(const Device& device, std::uint32_t parity, Binding binding, const Buffer& buffer);
     Buffer filled(const Device& device, const void* data, std::size_t bytes, const char* name) const;
 
@@ -64,7 +73,7 @@ private:
     SolverBuffers solver_;
     BodyBuffers body_;
     vk::raii::DescriptorPool pool_{nullptr};
-    std::vector<vk::raii::DescriptorSet> sets_;
+    std::array<std::vector<vk::raii::DescriptorSet>, family_count> sets_;  ///< of either parity
 };
 
 }  // namespace pliant::vulkan

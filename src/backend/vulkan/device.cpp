@@ -4,93 +4,17 @@
 #include <cstdio>
 #include <cstring>
 
-#include "backend/vulkan/bindings.hpp"
+#include <vulkan/vulkan_beta.h>  // VK_KHR_portability_subset
+
 #include "pliant/error.hpp"
-#include "solve/pass.hpp"
 
 namespace pliant::vulkan {
 namespace {
-
-constexpr std::uint32_t api_version = VK_API_VERSION_1_2;
-constexpr const char* validation_layer = "VK_LAYER_KHRONOS_validation";
-
-std::string kind_name(vk::PhysicalDeviceType type)
-{
-    switch (type) {
-        case vk::PhysicalDeviceType::eDiscreteGpu: return "discrete GPU";
-        case vk::PhysicalDeviceType::eIntegratedGpu: return "integrated GPU";
-        case vk::PhysicalDeviceType::eVirtualGpu: return "virtual GPU";
-        case vk::PhysicalDeviceType::eCpu: return "software";
-        default: return "other";
-    }
-}
 
 int preference(const std::string& kind)  // smaller is better
 {
     const char* order[] = {"discrete GPU", "integrated GPU", "virtual GPU", "other"};
     return static_cast<int>(std::find(std::begin(order), std::end(order), kind) - std::begin(order));
-}
-
-/// The family with compute, and with graphics where there is one: pictures are drawn from the same queue.
-int best_queue_family(const vk::raii::PhysicalDevice& physical)
-{
-    const auto families = physical.getQueueFamilyProperties();
-    int compute = -1;
-    for (std::size_t i = 0; i < families.size(); ++i) {
-        const auto flags = families[i].queueFlags;
-        if (!(flags & vk::QueueFlagBits::eCompute)) continue;
-        if (flags & vk::QueueFlagBits::eGraphics) return static_cast<int>(i);
-        if (compute < 0) compute = static_cast<int>(i);
-    }
-    return compute;
-}
-
-/// Version, queue, and the limits that the compute passes need (bindings.hpp, shaders/measure.glsl).
-bool usable(const vk::raii::PhysicalDevice& physical)
-{
-    constexpr std::uint32_t invocations = block_size, shared_memory = block_size * 32;
-    const auto properties = physical.getProperties();
-    return properties.apiVersion >= api_version && best_queue_family(physical) >= 0 &&
-           properties.limits.maxPerStageDescriptorStorageBuffers >= storage_buffer_count() &&
-           properties.limits.maxComputeWorkGroupInvocations >= invocations &&
-           properties.limits.maxComputeSharedMemorySize >= shared_memory;
-}
-
-PhysicalDeviceInfo describe(const vk::raii::PhysicalDevice& physical, int index)
-{
-    const auto properties = physical.getProperties();
-    PhysicalDeviceInfo info;
-    info.index = index;
-    info.name = properties.deviceName.data();
-    info.kind = kind_name(properties.deviceType);
-    info.hardware = properties.deviceType != vk::PhysicalDeviceType::eCpu;
-    info.api_version = properties.apiVersion;
-    info.max_buffer_range = properties.limits.maxStorageBufferRange;
-    info.max_shared_memory = properties.limits.maxComputeSharedMemorySize;
-    const auto memory = physical.getMemoryProperties();
-    for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i)
-        if (memory.memoryHeaps[i].flags & vk::MemoryHeapFlagBits::eDeviceLocal)
-            info.memory = std::max<std::uint64_t>(info.memory, memory.memoryHeaps[i].size);
-    return info;
-}
-
-vk::raii::Instance make_instance(const vk::raii::Context& context, bool validation,
-                                 std::vector<const char*> extensions = {})
-{
-    std::vector<const char*> layers;
-    if (validation) {
-        const auto available = context.enumerateInstanceLayerProperties();
-        if (std::none_of(available.begin(), available.end(), [](const auto& layer) {
-                return std::strcmp(layer.layerName, validation_layer) == 0;
-            }))
-            throw Error(ErrorKind::device_failure, std::string("the Vulkan layer ") + validation_layer +
-                                                       " is not installed: on Debian, install the package "
-                                                       "vulkan-validationlayers");
-        layers.push_back(validation_layer);
-        extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
-    }
-    const vk::ApplicationInfo application("pliant", 1, "pliant", 1, api_version);
-    return {context, vk::InstanceCreateInfo({}, &application, layers, extensions)};
 }
 
 std::atomic<std::uint64_t> all_messages{0};
@@ -106,20 +30,6 @@ VKAPI_ATTR VkBool32 VKAPI_CALL count_message(VkDebugUtilsMessageSeverityFlagBits
 }
 
 }  // namespace
-
-std::vector<PhysicalDeviceInfo> list_physical_devices() noexcept
-{
-    std::vector<PhysicalDeviceInfo> result;
-    try {
-        const vk::raii::Context context;
-        const auto instance = make_instance(context, false);
-        for (const auto& physical : vk::raii::PhysicalDevices(instance))
-            if (usable(physical)) result.push_back(describe(physical, static_cast<int>(result.size())));
-    } catch (const std::exception&) {
-        result.clear();  // no loader, no driver: there are no devices
-    }
-    return result;
-}
 
 Device::Device(const DeviceOptions& options)
 try {
@@ -147,28 +57,7 @@ void Device::open(const DeviceOptions& options)
                                      &validation_messages_)};
     }
 
-    std::vector<vk::raii::PhysicalDevice> candidates;
-    for (auto& physical : vk::raii::PhysicalDevices(instance_))
-        if (usable(physical)) candidates.push_back(std::move(physical));
-    if (candidates.empty())
-        throw Error(ErrorKind::device_failure,
-                    "no Vulkan 1.2 device that can run the passes was found: install a driver (on Debian, "
-                    "mesa-vulkan-drivers) or run with "
-                    "--backend cpu");
-    if (options.index >= static_cast<int>(candidates.size()) || options.index < -1)
-        throw Error(ErrorKind::device_failure,
-                    "device " + std::to_string(options.index) + " does not exist: there " +
-                        (candidates.size() == 1 ? "is 1 device"
-                                                : "are " + std::to_string(candidates.size()) + " devices") +
-                        ", counted from 0; see 'pliant info'");
-    std::size_t chosen = options.index < 0 ? 0 : static_cast<std::size_t>(options.index);
-    if (options.index < 0)
-        for (std::size_t i = 1; i < candidates.size(); ++i)
-            if (preference(describe(candidates[i], 0).kind) <
-                preference(describe(candidates[chosen], 0).kind))
-                chosen = i;
-    physical_ = std::move(candidates[chosen]);
-    info_ = describe(physical_, static_cast<int>(chosen));
+    choose(options.index);
     memory_properties_ = physical_.getMemoryProperties();
 
     queue_family_ = static_cast<std::uint32_t>(best_queue_family(physical_));
@@ -185,21 +74,65 @@ void Device::open(const DeviceOptions& options)
     draws_wires_ = features.fillModeNonSolid == VK_TRUE;
     std::vector<const char*> extensions;
     if (!options.surface_extensions.empty()) {
-        const auto offered = physical_.enumerateDeviceExtensionProperties();
-        if (std::none_of(offered.begin(), offered.end(), [](const auto& extension) {
-                return std::strcmp(extension.extensionName, VK_KHR_SWAPCHAIN_EXTENSION_NAME) == 0;
-            }))
+        if (!offers(physical_, VK_KHR_SWAPCHAIN_EXTENSION_NAME))
             throw Error(ErrorKind::device_failure, "the device " + info_.name +
                                                        " cannot show pictures in a window; choose another "
                                                        "with --device, or use --headless");
         extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     }
-    device_ = {physical_, vk::DeviceCreateInfo({}, queue, {}, extensions, &features)};
+    if (offers(physical_, VK_KHR_SHADER_FLOAT_CONTROLS_EXTENSION_NAME))
+        extensions.push_back(VK_KHR_SHADER_FLOAT_CONTROLS_EXTENSION_NAME);
+    // Who offers this is no whole Vulkan (MoltenVK), and must be told that we know. All that it has is
+    // switched on.
+    VkPhysicalDevicePortabilitySubsetFeaturesKHR portable{};
+    // Its name is declared with VK_ENABLE_BETA_EXTENSIONS alone, which would have to be set everywhere.
+    portable.sType = static_cast<VkStructureType>(1000163000);
+    const bool is_portable = offers(physical_, VK_KHR_PORTABILITY_SUBSET_EXTENSION_NAME);
+    if (is_portable) {
+        VkPhysicalDeviceFeatures2 all{};
+        all.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+        all.pNext = &portable;
+        physical_.getDispatcher()->vkGetPhysicalDeviceFeatures2(static_cast<VkPhysicalDevice>(*physical_),
+                                                                &all);
+        extensions.push_back(VK_KHR_PORTABILITY_SUBSET_EXTENSION_NAME);
+    }
+    vk::DeviceCreateInfo creation({}, queue, {}, extensions, &features);
+    if (is_portable) creation.pNext = &portable;
+    device_ = {physical_, creation};
+    memory_pool_.emplace(device_, memory_properties_, info_.max_allocation);
     queue_ = device_.getQueue(queue_family_, 0);
     lane_ = CommandLane(*this);
     staging_ = CommandLane(*this);
     staging_commands_ = staging_.make_commands();
     pipelines_ = {physical_, device_, options.pipeline_folder};
+}
+
+void Device::choose(int index)
+{
+    std::vector<Candidate> usable;
+    std::string refusals;
+    for (Candidate& candidate : candidates_of(instance_)) {
+        if (candidate.info.refusal.empty())
+            usable.push_back(std::move(candidate));
+        else
+            refusals += "; " + candidate.info.name + " is refused: " + candidate.info.refusal;
+    }
+    if (usable.empty())
+        throw Error(ErrorKind::device_failure,
+                    "no Vulkan device that can run the passes was found" + refusals +
+                        "; install a driver (on Debian, mesa-vulkan-drivers) or run with --backend cpu");
+    if (index >= static_cast<int>(usable.size()) || index < -1)
+        throw Error(
+            ErrorKind::device_failure,
+            "device " + std::to_string(index) + " does not exist: there " +
+                (usable.size() == 1 ? "is 1 device" : "are " + std::to_string(usable.size()) + " devices") +
+                ", counted from 0; see 'pliant info'");
+    std::size_t chosen = index < 0 ? 0 : static_cast<std::size_t>(index);
+    if (index < 0)
+        for (std::size_t i = 1; i < usable.size(); ++i)
+            if (preference(usable[i].info.kind) < preference(usable[chosen].info.kind)) chosen = i;
+    physical_ = std::move(usable[chosen].physical);
+    info_ = std::move(usable[chosen].info);
 }
 
 std::uint64_t Device::all_validation_messages() { return all_messages; }
@@ -228,8 +161,8 @@ Buffer Device::make_buffer(vk::DeviceSize size, vk::BufferUsageFlags usage, Memo
                                                     "; use fewer nodes or another backend");
     };
     if ((usage & vk::BufferUsageFlagBits::eStorageBuffer) && size > info_.max_buffer_range)
-        throw refusal("a storage buffer holds at most " + std::to_string(info_.max_buffer_range >> 20) +
-                      " MiB there");
+        throw refusal("its limit maxStorageBufferRange is " + std::to_string(info_.max_buffer_range >> 20) +
+                      " MiB");
     try {
         Buffer buffer;
         buffer.size = size;
@@ -242,10 +175,13 @@ Buffer Device::make_buffer(vk::DeviceSize size, vk::BufferUsageFlags usage, Memo
             memory == Memory::device   ? memory_type(needs.memoryTypeBits, Property::eDeviceLocal)
             : memory == Memory::upload ? memory_type(needs.memoryTypeBits, host, Property::eDeviceLocal)
                                        : memory_type(needs.memoryTypeBits, host, Property::eHostCached);
-        buffer.memory = {device_, vk::MemoryAllocateInfo(needs.size, type)};
-        buffer.handle.bindMemory(*buffer.memory, 0);
+        if (needs.size > info_.max_allocation)
+            throw refusal("its limit maxMemoryAllocationSize is " +
+                          std::to_string(info_.max_allocation >> 20) + " MiB");
+        buffer.memory = memory_pool_->take(needs, type, memory != Memory::device);
+        buffer.handle.bindMemory(buffer.memory.memory(), buffer.memory.offset());
         if (memory == Memory::device) memory_made_ += needs.size;
-        if (memory != Memory::device) buffer.mapped = buffer.memory.mapMemory(0, VK_WHOLE_SIZE);
+        buffer.mapped = buffer.memory.mapped();
         return buffer;
     } catch (const vk::SystemError& error) {
         throw refusal(error.what());

@@ -1,4 +1,4 @@
-// A Vulkan 1.2 device: chosen, opened, with buffers and one queue. Shared by the compute backend and the
+// A Vulkan 1.1 device: chosen, opened, with buffers and one queue. Shared by the compute backend and the
 // renderer.
 #pragma once
 
@@ -8,12 +8,15 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include <vulkan/vulkan_raii.hpp>
 
+#include "backend/vulkan/memory_pool.hpp"
+#include "backend/vulkan/physical_devices.hpp"
 #include "backend/vulkan/pipeline_store.hpp"
 
 namespace pliant::vulkan {
@@ -27,21 +30,6 @@ struct DeviceOptions {
     std::filesystem::path pipeline_folder = {};  ///< see SimulationOptions
 };
 
-/// What `pliant info` shows of a physical device.
-struct PhysicalDeviceInfo {
-    int index = 0;
-    std::string name;
-    std::string kind;  ///< "discrete GPU", "integrated GPU", "virtual GPU", "software", "other"
-    bool hardware = false;
-    std::uint32_t api_version = 0;
-    std::uint64_t memory = 0;             ///< bytes, the largest device-local heap
-    std::uint64_t max_buffer_range = 0;   ///< bytes of one storage buffer
-    std::uint32_t max_shared_memory = 0;  ///< bytes
-};
-
-/// Devices with Vulkan 1.2 and a compute queue; empty when there is no loader or no driver. Never throws.
-std::vector<PhysicalDeviceInfo> list_physical_devices() noexcept;
-
 /// Where a buffer lives.
 enum class Memory {
     device,    ///< fast for shaders; fill it by Device::write
@@ -49,10 +37,10 @@ enum class Memory {
     readback,  ///< host-visible, mapped, preferably cached: the host reads it
 };
 
-/// A buffer with its own memory; `mapped` is null for Memory::device.
+/// A buffer with its memory, a piece of a block; `mapped` is null for Memory::device.
 struct Buffer {
+    MemoryPiece memory;
     vk::raii::Buffer handle{nullptr};
-    vk::raii::DeviceMemory memory{nullptr};
     vk::DeviceSize size = 0;  ///< bytes
     void* mapped = nullptr;
 
@@ -108,6 +96,8 @@ public:
                        const char* name) const;
     /// Bytes of all buffers of Memory::device that were made, for whoever counts what a simulation holds.
     std::uint64_t memory_made() const { return memory_made_; }
+    /// Blocks of memory in which buffers are.
+    std::size_t allocation_count() const { return memory_pool_->allocation_count(); }
     std::uint32_t memory_type(std::uint32_t allowed_types, vk::MemoryPropertyFlags wanted,
                               vk::MemoryPropertyFlags preferred = {}) const;
     vk::raii::ShaderModule make_shader(std::span<const std::uint32_t> code) const;
@@ -140,6 +130,8 @@ public:
 
 private:
     void open(const DeviceOptions& options);
+    /// Of those that can be used: see DeviceOptions.
+    void choose(int index);
     /// A staging buffer that is kept, or `large` where that would keep too much; under `staging_turn_`.
     const Buffer& staging_for(std::size_t bytes, Memory memory, Buffer& large) const;
 
@@ -158,6 +150,7 @@ private:
     vk::raii::Queue queue_{nullptr};
     CommandLane lane_, staging_;
     vk::raii::CommandBuffer staging_commands_{nullptr};
+    mutable std::optional<MemoryPool> memory_pool_;  // and then what has pieces of it
     mutable Buffer upload_staging_, readback_staging_;
     mutable std::mutex queue_turn_, staging_turn_;
     vk::PhysicalDeviceMemoryProperties memory_properties_;

@@ -3,23 +3,23 @@
 #include <algorithm>
 
 #include "backend/vulkan/cloth_buffers.hpp"
+#include "backend/vulkan/device_limits.hpp"
 #include "backend/vulkan/shader_code.hpp"
+#include "pliant/error.hpp"
 
 namespace pliant::vulkan {
-namespace {
 
-/// All cloths of a scene do, or none: by the scene's method.
-bool needs_solver(const ClothModel& model) { return !model.hierarchy.empty(); }
-
-}  // namespace
-
-PassPipelines::PassPipelines(const Device& device, bool fast_math)
-    : sets(make_cloth_layout(device)), fast_math_(fast_math)
+PassPipelines::PassPipelines(const Device& device, bool fast_math) : fast_math_(fast_math)
 {
     const vk::PushConstantRange push(vk::ShaderStageFlagBits::eCompute, 0, sizeof(Push));
-    const vk::DescriptorSetLayout of_sets = *sets;
-    layout = {device.handle(), vk::PipelineLayoutCreateInfo({}, of_sets, push)};
-    for (std::size_t p = 0; p < all_passes().size(); ++p) pipelines_.emplace_back(nullptr);
+    for (std::uint32_t f = 0; f < family_count; ++f) {
+        sets_.push_back(make_cloth_layout(device, static_cast<Family>(f)));
+        const vk::DescriptorSetLayout set = *sets_.back();
+        layouts_.emplace_back(device.handle(), vk::PipelineLayoutCreateInfo({}, set, push));
+    }
+    const vk::PhysicalDeviceLimits limits = device.physical().getProperties().limits;
+    for (std::uint32_t steps = 2; steps < tiles_.size(); ++steps) tiles_[steps] = sheet_tile(limits, steps);
+    for (std::size_t p = 0; p < all_passes().size() + tiles_.size(); ++p) pipelines_.emplace_back(nullptr);
 }
 
 std::shared_ptr<PassPipelines> PassPipelines::of(const Device& device, bool fast_math)
@@ -29,55 +29,77 @@ std::shared_ptr<PassPipelines> PassPipelines::of(const Device& device, bool fast
     return std::static_pointer_cast<PassPipelines>(kept);
 }
 
-void PassPipelines::make(const Device& device, std::span<const ClothModel> models)
+std::size_t PassPipelines::place_of(const Dispatch& dispatch)
 {
-    const bool solved = std::any_of(models.begin(), models.end(), needs_solver);
-    const bool bodies =
-        std::any_of(models.begin(), models.end(), [](const ClothModel& model) { return model.is_body(); });
-    for (std::uint32_t p = 0; p < pipelines_.size(); ++p) {
-        const auto pass = static_cast<Pass>(p);
-        if (*pipelines_[p] || (is_solver_pass(pass) && !solved) || (is_body_pass(pass) && !bodies)) continue;
-        const auto fast = fast_math_ ? fast_compute_shader(pass) : std::span<const std::uint32_t>();
-        pipelines_[p] =
-            fast.empty() ? made(device, with_exact_arithmetic(compute_shader(pass))) : made(device, fast);
-    }
-    device.pipelines().keep();
+    return dispatch.steps > 1 ? all_passes().size() + dispatch.steps
+                              : static_cast<std::size_t>(dispatch.call.pass);
 }
 
-std::uint32_t PassPipelines::make_sheet_steps(const Device& device, std::uint32_t most)
+void PassPipelines::make(const Device& device, std::span<const Dispatch> dispatches)
 {
-    const vk::PhysicalDeviceLimits limits = device.physical().getProperties().limits;
-    while (most > 1 && sheet_tile(limits, most).rows == 0) --most;
-    for (std::uint32_t steps = 2; steps <= most; ++steps) {
-        SheetSteps& of = sheet_steps_[steps];
-        if (*of.pipeline) continue;
-        of.tile = sheet_tile(limits, steps);
-        const std::array constants{of.tile.invocations, steps, of.tile.rows, of.tile.columns};
-        of.pipeline = fast_math_ ? made(device, fast_sheet_steps_shader(), constants)
-                                 : made(device, with_exact_arithmetic(sheet_steps_shader()), constants);
+    const std::scoped_lock turn(turn_);
+    bool any = false;
+    for (const Dispatch& dispatch : dispatches) {
+        vk::raii::Pipeline& pipeline = pipelines_[place_of(dispatch)];
+        if (*pipeline) continue;
+        pipeline = made(device, dispatch);
+        any = true;
     }
-    device.pipelines().keep();
+    if (any) device.pipelines().keep();
+}
+
+std::size_t PassPipelines::made_count() const
+{
+    const std::scoped_lock turn(turn_);
+    return static_cast<std::size_t>(std::count_if(
+        pipelines_.begin(), pipelines_.end(), [](const vk::raii::Pipeline& pipeline) { return *pipeline; }));
+}
+
+vk::Pipeline PassPipelines::of(const Dispatch& dispatch) const
+{
+    const std::scoped_lock turn(turn_);
+    return *pipelines_[place_of(dispatch)];
+}
+
+std::uint32_t PassPipelines::sheet_steps(std::uint32_t most) const
+{
+    while (most > 1 && tiles_[most].rows == 0) --most;
     return most;
 }
 
-vk::raii::Pipeline PassPipelines::made(const Device& device, std::span<const std::uint32_t> code,
-                                       std::span<const std::uint32_t> constants) const
+vk::raii::Pipeline PassPipelines::made(const Device& device, const Dispatch& dispatch) const
 {
-    const auto properties =
-        device.physical()
-            .getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceFloatControlsProperties>();
-    const auto& controls = properties.get<vk::PhysicalDeviceFloatControlsProperties>();
-    const FloatControls modes{controls.shaderDenormFlushToZeroFloat32 == VK_TRUE,
-                              controls.shaderRoundingModeRTEFloat32 == VK_TRUE};
+    const Pass pass = dispatch.call.pass;
+    std::vector<std::uint32_t> constants;  // what the shader's constants 0, 1, ... are set to
+    std::span<const std::uint32_t> exact = compute_shader(pass), code;
+    if (fast_math_) code = fast_compute_shader(pass);
+    if (dispatch.steps > 1) {
+        const SheetTile& tile = tiles_[dispatch.steps];
+        constants = {tile.invocations, dispatch.steps, tile.rows, tile.columns};
+        exact = sheet_steps_shader();
+        if (fast_math_) code = fast_sheet_steps_shader();
+    }
+    std::vector<std::uint32_t> decorated;
+    if (code.empty()) code = decorated = with_exact_arithmetic(exact);
+
+    const Family family = family_of(pass);
+    const std::string beyond =
+        beyond_limits(device.physical().getProperties().limits, needs_of(code, constants), needs_of(family));
+    if (!beyond.empty())
+        throw Error(ErrorKind::device_failure,
+                    "the Vulkan device " + device.info().name + " cannot run the pass " +
+                        description_of(pass).name + ": " + beyond +
+                        "; choose another with --device, or run with --backend cpu");
     std::vector<vk::SpecializationMapEntry> entries;
     for (std::uint32_t k = 0; k < constants.size(); ++k)
         entries.emplace_back(k, k * sizeof constants[k], sizeof constants[k]);
     const vk::SpecializationInfo specialised(static_cast<std::uint32_t>(entries.size()), entries.data(),
-                                             constants.size_bytes(), constants.data());
-    const auto module = device.make_shader(with_float_controls(code, modes));
+                                             constants.size() * sizeof constants[0], constants.data());
+    const auto module = device.make_shader(with_float_controls(code, device.info().float_controls));
     const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main",
                                                   &specialised);
-    return {device.handle(), device.pipelines().cache(), vk::ComputePipelineCreateInfo({}, stage, *layout)};
+    return {device.handle(), device.pipelines().cache(),
+            vk::ComputePipelineCreateInfo({}, stage, layout(family))};
 }
 
 }  // namespace pliant::vulkan

@@ -1,14 +1,16 @@
-// The pipelines of passes; compiling them takes its time, so that all simulations of a device share them.
+// The pipelines of passes; compiling them takes its time, so that all simulations of a device share them, and
+// only those are made that a program names.
 #pragma once
 
 #include <array>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <vector>
 
+#include "backend/vulkan/bindings.hpp"
 #include "backend/vulkan/device.hpp"
 #include "backend/vulkan/sheet_tile.hpp"
-#include "body/cloth_model.hpp"
 #include "solve/pass.hpp"
 
 namespace pliant::vulkan {
@@ -19,6 +21,7 @@ struct Push {
     std::uint32_t level = 0, detail = 0, guard = 0, slot_first = 0, slot_count = 0;
 };
 
+/// Threads may share it.
 class PassPipelines {
 public:
     PassPipelines(const Device& device, bool fast_math);
@@ -26,34 +29,32 @@ public:
     /// Those of a device.
     static std::shared_ptr<PassPipelines> of(const Device& device, bool fast_math);
 
-    /// Makes those that some cloths need and that are not there yet.
-    void make(const Device& device, std::span<const ClothModel> models);
-    /// Makes those of up to `most` steps of a sheet in a dispatch; returns how many the device can do.
-    std::uint32_t make_sheet_steps(const Device& device, std::uint32_t most);
+    /// Makes those of some dispatches that are not there yet. Throws Error(device_failure) where one is
+    /// beyond the limits of the device.
+    void make(const Device& device, std::span<const Dispatch> dispatches);
+    /// How many have been made.
+    std::size_t made_count() const;
 
-    vk::Pipeline of(const Dispatch& dispatch) const
-    {
-        return dispatch.steps > 1 ? *sheet_steps_[dispatch.steps].pipeline
-                                  : *pipelines_[static_cast<std::size_t>(dispatch.call.pass)];
-    }
-    const SheetTile& tile(std::uint32_t steps) const { return sheet_steps_[steps].tile; }
+    /// Of a dispatch that `make` has seen.
+    vk::Pipeline of(const Dispatch& dispatch) const;
+    /// How many steps of a sheet the device can make in a dispatch, `most` at most.
+    std::uint32_t sheet_steps(std::uint32_t most) const;
+    const SheetTile& tile(std::uint32_t steps) const { return tiles_[steps]; }
 
-    vk::raii::DescriptorSetLayout sets;
-    vk::raii::PipelineLayout layout{nullptr};
+    /// By family.
+    std::span<const vk::raii::DescriptorSetLayout> sets() const { return sets_; }
+    vk::PipelineLayout layout(Family family) const { return *layouts_[static_cast<std::size_t>(family)]; }
 
 private:
-    struct SheetSteps {
-        SheetTile tile;
-        vk::raii::Pipeline pipeline{nullptr};
-    };
-
-    /// With the numbers that the shader's constants 0, 1, ... are set to.
-    vk::raii::Pipeline made(const Device& device, std::span<const std::uint32_t> code,
-                            std::span<const std::uint32_t> constants = {}) const;
+    static std::size_t place_of(const Dispatch& dispatch);
+    vk::raii::Pipeline made(const Device& device, const Dispatch& dispatch) const;
 
     bool fast_math_ = false;
-    std::vector<vk::raii::Pipeline> pipelines_;                 // by Pass
-    std::array<SheetSteps, most_sheet_steps + 1> sheet_steps_;  // by their number, from 2 on
+    std::vector<vk::raii::DescriptorSetLayout> sets_;
+    std::vector<vk::raii::PipelineLayout> layouts_;
+    std::array<SheetTile, most_sheet_steps + 1> tiles_;  // by the number of steps, from 2 on
+    std::vector<vk::raii::Pipeline> pipelines_;          // by Pass, then by the number of steps
+    mutable std::mutex turn_;                            // of pipelines_
 };
 
 }  // namespace pliant::vulkan

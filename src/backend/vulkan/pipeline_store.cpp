@@ -65,6 +65,7 @@ PipelineStore::PipelineStore(const vk::raii::PhysicalDevice& physical, const vk:
 
 void PipelineStore::keep() noexcept
 {
+    const std::scoped_lock turn(*turn_);
     if (file_.empty() || !*cache_) return;
     try {
         const std::vector<std::uint8_t> data = cache_.getData();

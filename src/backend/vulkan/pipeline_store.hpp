@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
+#include <mutex>
 
 #include <vulkan/vulkan_raii.hpp>
 
@@ -18,10 +20,11 @@ public:
 
     /// For making pipelines; they are found in it, and left in it.
     const vk::raii::PipelineCache& cache() const { return cache_; }
-    /// Writes the file if there are more pipelines than it has.
+    /// Writes the file if there are more pipelines than it has. Threads take turns.
     void keep() noexcept;
 
 private:
+    std::unique_ptr<std::mutex> turn_ = std::make_unique<std::mutex>();  // a store may be moved
     std::filesystem::path file_;
     std::size_t kept_size_ = 0;  ///< bytes of what the file holds
     vk::raii::PipelineCache cache_{nullptr};

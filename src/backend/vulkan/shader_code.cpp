@@ -2,6 +2,8 @@
 #include "backend/vulkan/shader_code.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <set>
 
 namespace pliant::vulkan {
@@ -386,7 +388,8 @@ std::vector<std::uint32_t> with_exact_arithmetic(std::span<const std::uint32_t> 
 
 std::vector<std::uint32_t> with_float_controls(std::span<const std::uint32_t> code, FloatControls controls)
 {
-    constexpr std::uint32_t header_words = 5, op_entry_point = 15, op_execution_mode = 16, op_capability = 17;
+    constexpr std::uint32_t header_words = 5, op_extension = 10, op_entry_point = 15, op_execution_mode = 16,
+                            op_capability = 17;
     constexpr std::uint32_t float_bits = 32;
     struct Mode {
         bool wanted;
@@ -394,6 +397,11 @@ std::vector<std::uint32_t> with_float_controls(std::span<const std::uint32_t> co
     };
     const Mode modes[] = {{controls.flush_denormals, 4465, 4460},    // DenormFlushToZero
                           {controls.round_to_nearest, 4467, 4462}};  // RoundingModeRTE
+    // Before SPIR-V 1.4 both are an extension's, whose name is a string of its own length in words.
+    constexpr char extension_name[] = "SPV_KHR_float_controls";
+    std::array<std::uint32_t, 1 + (sizeof extension_name + 3) / 4> extension{};
+    extension[0] = static_cast<std::uint32_t>(extension.size()) << 16 | op_extension;
+    std::memcpy(&extension[1], extension_name, sizeof extension_name);
 
     std::vector<std::uint32_t> result(code.begin(), code.begin() + header_words);
     bool capabilities_done = false;
@@ -402,6 +410,8 @@ std::vector<std::uint32_t> with_float_controls(std::span<const std::uint32_t> co
         if (!capabilities_done && op != op_capability) {
             for (const Mode& mode : modes)
                 if (mode.wanted) result.insert(result.end(), {2u << 16 | op_capability, mode.capability});
+            if (controls.flush_denormals || controls.round_to_nearest)
+                result.insert(result.end(), extension.begin(), extension.end());
             capabilities_done = true;
         }
         result.insert(result.end(), code.begin() + static_cast<std::ptrdiff_t>(at),

@@ -22,7 +22,7 @@ std::span<const std::uint32_t> fast_sheet_steps_shader();
 /// (`precise`); this gives it to what is written around them.
 std::vector<std::uint32_t> with_exact_arithmetic(std::span<const std::uint32_t> code);
 
-/// Execution modes for 32-bit floats that a device offers (float controls, core since SPIR-V 1.4).
+/// Execution modes for 32-bit floats that a device offers (VK_KHR_shader_float_controls).
 struct FloatControls {
     bool flush_denormals = false;  ///< DenormFlushToZero: denormals are flushed on every machine
     bool round_to_nearest =

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "backend/host/solver_state.hpp"
+#include "backend/vulkan/float4.hpp"
 
 namespace pliant::vulkan {
 namespace {
@@ -18,10 +19,6 @@ constexpr std::size_t level_numbers = 24;   ///< integers that a level takes the
 constexpr std::size_t most_slots = 16;
 static_assert(sum_slot_count <= most_slots);
 static_assert(group_columns == sum_columns);
-
-struct Float4 {
-    float x = 0, y = 0, z = 0, w = 0;
-};
 
 // The order in which level_at() of shaders/solver.glsl reads them.
 static_assert(sizeof(SolverLevel) <= level_numbers * sizeof(std::int32_t));
@@ -50,19 +47,25 @@ static_assert(offsetof(SolverBlock, has) % 16 == 0 && offsetof(SolverBlock, part
 
 }  // namespace
 
+std::string arena_refusal(const ClothModel& model, const std::string& device, std::uint64_t most)
+{
+    const std::uint64_t bytes = model.hierarchy.number_count * sizeof(float);
+    if (bytes <= most) return {};
+    // The arena grows as the nodes do, but for a border.
+    return "the constraint solver of a cloth of " + std::to_string(model.node_count()) +
+           " nodes takes a buffer of " + std::to_string(bytes) + " bytes, and on " + device +
+           " the limit maxStorageBufferRange is " + std::to_string(most) + ", enough for about " +
+           std::to_string(model.node_count() * most / bytes) +
+           " nodes of this kind; use fewer nodes or another backend, for example --backend cpu";
+}
+
 SolverBuffers::SolverBuffers(const Device& device, const ClothModel& model) : model_(&model)
 {
     const Hierarchy& hierarchy = model.hierarchy;
     if (hierarchy.empty()) return;
     const std::size_t bytes = hierarchy.number_count * sizeof(float);
-    const std::uint64_t most = device.info().max_buffer_range;
-    if (bytes > most)
-        throw Error(ErrorKind::device_failure,
-                    "the constraint solver of a cloth of " + std::to_string(model.node_count()) +
-                        " nodes takes a buffer of " + std::to_string(bytes) + " bytes, and on " +
-                        device.info().name + " a buffer has at most " + std::to_string(most) +
-                        "; use fewer nodes or another backend, for example --backend cpu");
-
+    const std::string refusal = arena_refusal(model, device.info().name, device.info().max_buffer_range);
+    if (!refusal.empty()) throw Error(ErrorKind::device_failure, refusal);
     if (hierarchy.level_count() > most_levels)
         throw Error(ErrorKind::device_failure,
                     "the constraint solver of a cloth has " + std::to_string(hierarchy.level_count()) +

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "backend/vulkan/device.hpp"
@@ -14,6 +15,10 @@ namespace pliant::vulkan {
 struct Groups {
     std::uint64_t x = 0, y = 1;
 };
+
+/// Why the solver's numbers of a cloth do not fit into one buffer of `most` bytes, and how many nodes would;
+/// empty when they do.
+std::string arena_refusal(const ClothModel& model, const std::string& device, std::uint64_t most);
 
 /// Nothing is in it when the cloth's hierarchy is empty.
 class SolverBuffers {

@@ -5,7 +5,9 @@
 #include <map>
 #include <set>
 
+#include "backend/vulkan/barrier_plan.hpp"
 #include "backend/vulkan/cloth_buffers.hpp"
+#include "backend/vulkan/float4.hpp"
 #include "backend/vulkan/pass_pipelines.hpp"
 #include "backend/vulkan/segments.hpp"
 #include "backend/vulkan/sheet_tile.hpp"
@@ -16,10 +18,6 @@ namespace pliant {
 namespace {
 
 using namespace vulkan;
-
-struct Float4 {
-    float x = 0, y = 0, z = 0, w = 0;
-};
 
 /// As collider_at() of shaders/colliders.glsl.
 using ColliderRow = std::array<Float4, 8>;
@@ -53,45 +51,6 @@ struct Recording {
     std::vector<Stretch> stretches;
 };
 
-/// Puts barriers where the table of passes asks for them: before a call that touches what an earlier one
-/// wrote, or writes what an earlier one read.
-class BarrierPlan {
-public:
-    bool needed_before(const Call& call)
-    {
-        const PassDescription& pass = description_of(call.pass);
-        std::set<Key> reads, writes;
-        for (const Resource r : pass.reads) reads.insert(key(call, r));
-        for (const Resource r : pass.writes) writes.insert(key(call, r));
-        bool hazard = false;
-        for (const Key& k : reads) hazard |= written_.count(k) > 0;
-        for (const Key& k : writes) hazard |= written_.count(k) > 0 || read_.count(k) > 0;
-        if (hazard) {
-            written_.clear();
-            read_.clear();
-        }
-        read_.merge(reads);
-        written_.merge(writes);
-        return hazard;
-    }
-
-private:
-    using Key = std::pair<std::uint32_t, std::uint32_t>;  // cloth, physical buffer
-    static Key key(const Call& call, Resource resource)
-    {
-        // The two copies of the state by their place, not by their role.
-        constexpr std::uint32_t copies = 100;
-        switch (resource) {
-            case Resource::position: return {call.cloth, copies + call.parity};
-            case Resource::next_position: return {call.cloth, copies + 1 - call.parity};
-            case Resource::velocity: return {call.cloth, copies + 2 + call.parity};
-            case Resource::next_velocity: return {call.cloth, copies + 3 - call.parity};
-            default: return {call.cloth, static_cast<std::uint32_t>(resource)};
-        }
-    }
-    std::set<Key> written_, read_;
-};
-
 std::shared_ptr<Device> device_for(const SimulationOptions& options)
 {
     if (options.shared_device) return options.shared_device;
@@ -108,17 +67,15 @@ public:
           lane_(*device_),
           fast_math_(options.fast_math)
     {
-        pipelines_->make(*device_, models);
-        if (std::any_of(models.begin(), models.end(),
-                        [](const ClothModel& model) { return model.node_centric(); }))
-            steps_at_once_ = pipelines_->make_sheet_steps(*device_, options.gpu_substeps);
+        steps_at_once_ = pipelines_->sheet_steps(options.gpu_substeps);
+        pipelines_->make(*device_, dispatches_of(usual_calls(models), steps_at_once_));
         for (const ClothModel& model : models) {
             const auto known = std::find(origins_.begin(), origins_.end(), model.origin);
             origin_of_.push_back(static_cast<std::size_t>(known - origins_.begin()));
             if (known == origins_.end()) origins_.push_back(model.origin);
         }
         cloths_.reserve(models.size());
-        for (const ClothModel& model : models) cloths_.emplace_back(*device_, model, pipelines_->sets);
+        for (const ClothModel& model : models) cloths_.emplace_back(*device_, model, pipelines_->sets());
         check_sizes(models);
         reserve_colliders(1);
     }
@@ -316,6 +273,16 @@ private:
         }
     }
 
+    /// Those of which all frames are made, so that the first frame need not wait for their pipelines; so many
+    /// steps that each share of them is there that dispatches_of gives.
+    std::vector<Call> usual_calls(std::span<const ClothModel> models) const
+    {
+        std::vector<Call> calls;
+        append_frame(models, 1, 0, calls);
+        if (steps_at_once_ > 1) append_frame(models, 2 * steps_at_once_ + 3, 0, calls);
+        return calls;
+    }
+
     /// Every call of a frame must be one dispatch that the device can do.
     void check_sizes(std::span<const ClothModel> models) const
     {
@@ -325,12 +292,17 @@ private:
         for (std::uint32_t c = 0; c < models.size(); ++c) append_drawing(models[c], c, 0, calls);
         for (const Call& call : calls) {
             const Groups groups = groups_of({call});
-            if (groups.x > most[0] || groups.y > most[1])
+            for (std::uint32_t axis = 0; axis < 2; ++axis) {
+                const std::uint64_t needed = axis == 0 ? groups.x : groups.y;
+                if (needed <= most[axis]) continue;
                 throw Error(ErrorKind::device_failure,
                             "a cloth of " + std::to_string(models[call.cloth].node_count()) +
-                                " nodes is too large for " + device_->info().name + ", which runs " +
-                                std::to_string(most[0]) + " x " + std::to_string(most[1]) +
-                                " work groups at most; use fewer nodes or another backend");
+                                " nodes is too large for " + device_->info().name +
+                                ": its limit maxComputeWorkGroupCount[" + std::to_string(axis) + "] is " +
+                                std::to_string(most[axis]) + ", and the pass " +
+                                description_of(call.pass).name + " needs " + std::to_string(needed) +
+                                "; use fewer nodes or another backend");
+            }
         }
     }
 
@@ -381,6 +353,7 @@ private:
         recording.segment = segment;
         const std::vector<Dispatch> dispatches = dispatches_of(
             std::span(program.calls).subspan(segment.first, segment.end - segment.first), steps_at_once_);
+        pipelines_->make(*device_, dispatches);
         if (!dispatches.empty()) {
             recording.cloth = dispatches.front().call.cloth;
             recording.guard = dispatches.front().call.guard;
@@ -459,9 +432,11 @@ private:
         const Groups groups = groups_of(dispatch);
         if (groups.x == 0) return;  // a mesh without springs
         commands.bindPipeline(vk::PipelineBindPoint::eCompute, pipelines_->of(dispatch));
-        commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *pipelines_->layout, 0,
-                                    cloth.set(call.parity), {});
-        commands.pushConstants<Push>(*pipelines_->layout, vk::ShaderStageFlagBits::eCompute, 0, push);
+        const Family family = family_of(call.pass);
+        const vk::PipelineLayout layout = pipelines_->layout(family);
+        commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, layout, 0,
+                                    cloth.set(family, call.parity), {});
+        commands.pushConstants<Push>(layout, vk::ShaderStageFlagBits::eCompute, 0, push);
         commands.dispatch(static_cast<std::uint32_t>(groups.x), static_cast<std::uint32_t>(groups.y), 1);
     }
 

@@ -1,0 +1,15 @@
+#include "processor.hpp"
+
+#include <fstream>
+
+namespace pliant::tool {
+
+std::string processor_name()
+{
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);)
+        if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+    return "";
+}
+
+}  // namespace pliant::tool

@@ -1,0 +1,15 @@
+// How long something took, for what is shown to a person.
+#pragma once
+
+#include <chrono>
+
+namespace pliant::tool {
+
+using Clock = std::chrono::steady_clock;
+
+inline double seconds_since(Clock::time_point start)
+{
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+}  // namespace pliant::tool

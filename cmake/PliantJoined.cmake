@@ -1,0 +1,16 @@
+# Files that are compiled as one: a compiler spends most of its time on headers, and on templates of the standard library
+# that each file would have a copy of. What is in an unnamed namespace must then have a name of its own within the group.
+#   pliant_join(TARGET GROUP PATTERN... [EXCEPT REGEX])
+function(pliant_join target group)
+    if(NOT PLIANT_JOINED)
+        return()
+    endif()
+    cmake_parse_arguments(PARSE_ARGV 2 join "" EXCEPT "")
+    file(GLOB files CONFIGURE_DEPENDS ${join_UNPARSED_ARGUMENTS})
+    if(join_EXCEPT)
+        list(FILTER files EXCLUDE REGEX ${join_EXCEPT})
+    endif()
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+    string(MAKE_C_IDENTIFIER ${group} group)
+    set_source_files_properties(${files} PROPERTIES UNITY_GROUP ${group})
+endfunction()

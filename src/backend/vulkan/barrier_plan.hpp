@@ -1,0 +1,51 @@
+// Where the table of passes asks for barriers between the calls of a program.
+#pragma once
+
+#include <cstdint>
+#include <set>
+#include <utility>
+
+#include "solve/pass.hpp"
+
+namespace pliant::vulkan {
+
+/// Asked call by call: whether there has to be one before a call, since it touches what an earlier one wrote,
+/// or writes what an earlier one read.
+class BarrierPlan {
+public:
+    bool needed_before(const Call& call)
+    {
+        const PassDescription& pass = description_of(call.pass);
+        std::set<Key> reads, writes;
+        for (const Resource r : pass.reads) reads.insert(key(call, r));
+        for (const Resource r : pass.writes) writes.insert(key(call, r));
+        bool hazard = false;
+        for (const Key& k : reads) hazard |= written_.count(k) > 0;
+        for (const Key& k : writes) hazard |= written_.count(k) > 0 || read_.count(k) > 0;
+        if (hazard) {
+            written_.clear();
+            read_.clear();
+        }
+        read_.merge(reads);
+        written_.merge(writes);
+        return hazard;
+    }
+
+private:
+    using Key = std::pair<std::uint32_t, std::uint32_t>;  // cloth, physical buffer
+    static Key key(const Call& call, Resource resource)
+    {
+        // The two copies of the state by their place, not by their role.
+        constexpr std::uint32_t copies = 100;
+        switch (resource) {
+            case Resource::position: return {call.cloth, copies + call.parity};
+            case Resource::next_position: return {call.cloth, copies + 1 - call.parity};
+            case Resource::velocity: return {call.cloth, copies + 2 + call.parity};
+            case Resource::next_velocity: return {call.cloth, copies + 3 - call.parity};
+            default: return {call.cloth, static_cast<std::uint32_t>(resource)};
+        }
+    }
+    std::set<Key> written_, read_;
+};
+
+}  // namespace pliant::vulkan

@@ -1,0 +1,86 @@
+// Barriers between the passes of whole frames: wherever two calls touch the same memory and one of them
+// writes, there is one between them, found here call by call and pair by pair.
+#include <gtest/gtest.h>
+
+#include "backend/vulkan/barrier_plan.hpp"
+#include "pliant/mesh_generators.hpp"
+#include "solve/frame.hpp"
+#include "test_cloths.hpp"
+
+namespace pliant {
+namespace {
+
+/// The memory behind a resource: each copy of the state is the current one in every second step.
+std::pair<std::uint32_t, std::string> memory_of(const Call& call, Resource resource)
+{
+    const std::string now = std::to_string(call.parity), next = std::to_string(1 - call.parity);
+    switch (resource) {
+        case Resource::position: return {call.cloth, "position " + now};
+        case Resource::next_position: return {call.cloth, "position " + next};
+        case Resource::velocity: return {call.cloth, "velocity " + now};
+        case Resource::next_velocity: return {call.cloth, "velocity " + next};
+        default: return {call.cloth, std::to_string(static_cast<int>(resource))};
+    }
+}
+
+bool depend_on_each_other(const Call& a, const Call& b)
+{
+    const auto meet = [&](auto one, auto other) {
+        for (const Resource r : one)
+            for (const Resource s : other)
+                if (memory_of(a, r) == memory_of(b, s)) return true;
+        return false;
+    };
+    const PassDescription &p = description_of(a.pass), &q = description_of(b.pass);
+    return meet(p.writes, q.reads) || meet(p.writes, q.writes) || meet(p.reads, q.writes);
+}
+
+Scene scene_of(Method method, bool body)
+{
+    Scene scene;
+    scene.method = method;
+    Cloth cloth =
+        body ? Cloth::soft_body(icosphere_mesh({.radius = 0.4, .frequency = 2})) : test::flat_sheet(5, 4);
+    cloth.pin(Attachment(std::uint32_t{1}, {{.time = 0}, {.time = 1, .position = {1, 0, 0}}}));
+    scene.add(cloth);
+    scene.air = {.velocity = {3, 0.5, -1}, .density = 1.2, .drag = 1.1, .lift = 0.4};
+    return scene;
+}
+
+class Barriers : public testing::TestWithParam<std::pair<Method, bool>> {};
+
+TEST_P(Barriers, PartAllThatDependsOnEachOtherAndNoMore)
+{
+    const auto& [method, body] = GetParam();
+    const Scene scene = scene_of(method, body);
+    std::vector<ClothModel> models;
+    for (int k = 0; k < 2; ++k)
+        models.emplace_back(scene.cloth(0), scene);  // which have nothing to do with each other
+    std::vector<Call> calls;
+    append_frame(models, 3, 0, calls, 0);
+    calls.resize(std::min<std::size_t>(calls.size(), 1000));
+
+    vulkan::BarrierPlan plan;
+    std::vector<bool> before;
+    for (const Call& call : calls) before.push_back(plan.needed_before(call));
+    EXPECT_FALSE(before[0]);
+    for (std::size_t j = 1, since = 0; j < calls.size(); ++j) {
+        bool needed = false;
+        for (std::size_t i = since; i < j; ++i) needed |= depend_on_each_other(calls[i], calls[j]);
+        EXPECT_EQ(before[j], needed) << j << ": " << description_of(calls[j].pass).name;
+        if (before[j]) since = j;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, Barriers,
+                         testing::Values(std::pair{Method::mass_spring, false},
+                                         std::pair{Method::constraint, false}, std::pair{Method::acad, false},
+                                         std::pair{Method::mass_spring, true},
+                                         std::pair{Method::volume, true}),
+                         [](const auto& param) {
+                             return std::string(name_of(param.param.first)) +
+                                    (param.param.second ? "_body" : "");
+                         });
+
+}  // namespace
+}  // namespace pliant

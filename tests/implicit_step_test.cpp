@@ -1,0 +1,152 @@
+// The implicit step of the method constraint, beside constraint_test.cpp: air, surfaces that move, what a
+// report says of a solve, and how many cycles it takes.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "pliant/pliant.hpp"
+#include "test_cloths.hpp"
+
+namespace pliant {
+namespace {
+
+constexpr double frame = 1.0 / 60;  // s
+
+/// A sheet of 6 x 6 nodes that lies in the plane y = 0.
+Scene lying_sheet()
+{
+    Scene scene;
+    scene.method = Method::constraint;
+    Cloth cloth = test::flat_sheet(6, 6);
+    cloth.springs = {{0, 0}, {0, 0}, {1, 0}};
+    cloth.damping = 0;
+    scene.add(cloth);
+    return scene;
+}
+
+/// On a plane that does this.
+Scene sheet_on(std::vector<Keyframe> keyframes)
+{
+    Scene scene = lying_sheet();
+    scene.cloth_handle(0)->position = {0, scene.cloth(0).thickness, 0};
+    scene.add(Plane{.friction = 0.5, .keyframes = std::move(keyframes)});
+    return scene;
+}
+
+TEST(ImplicitStep, AirTakesAsMuchAsOfAnExplicitStep)
+{
+    Scene scene = lying_sheet();
+    scene.gravity = {};
+    scene.cloth_handle(0)->damping = 2;  // 1/s
+    scene.cloth_handle(0)->velocity = {1, 0, 0};
+    for (const Backend backend : {Backend::reference, Backend::cpu}) {
+        Simulation simulation(scene, test::on(backend));
+        for (int k = 0; k < 30; ++k) simulation.advance(frame);
+        for (const Vec3& v : simulation.velocities()) EXPECT_NEAR(v.x, std::pow(1 - 2 * frame, 30), 1e-5);
+    }
+}
+
+TEST(ImplicitStep, FrictionTakesAClothAlongWithASurfaceThatMoves)
+{
+    // 0.2 m/s is reached in 0.04 s at 0.5 g.
+    const Scene scene = sheet_on({{0, {0, 0, 0}, {}}, {2, {0.4, 0, 0}, {}}});
+    for (const Backend backend : {Backend::reference, Backend::cpu}) {
+        Simulation simulation(scene, test::on(backend));
+        for (int k = 0; k < 30; ++k) simulation.advance(frame);
+        for (const Vec3& v : simulation.velocities())
+            EXPECT_NEAR(v.x, 0.2, 1.05 * scene.newton_multigrid.friction_speed) << name_of(backend);
+    }
+}
+
+TEST(ImplicitStep, APlateThatRisesIsWhereItIsAtTheEndOfEachStep)
+{
+    // By 5 mm in a step. A node stands m g / k = 0.8 um deep in it.
+    const Scene scene = sheet_on({{0, {0, 0, 0}, {}}, {2, {0, 0.6, 0}, {}}});
+    for (const Backend backend : {Backend::reference, Backend::cpu}) {
+        Simulation simulation(scene, test::on(backend));
+        for (int k = 1; k <= 30; ++k) {
+            simulation.advance(frame);
+            for (const Vec3& x : simulation.positions())
+                ASSERT_NEAR(x.y, 0.3 * k * frame + scene.cloth(0).thickness, 1e-4)
+                    << name_of(backend) << ", " << k;
+        }
+    }
+}
+
+Scene hanging_sheet(std::uint32_t n, double compliance = 1e-6)
+{
+    Scene scene;
+    scene.method = Method::constraint;
+    scene.time.substeps = 1;
+    Cloth cloth = test::flat_sheet(n, n);
+    cloth.springs = {{0, 0}, {0, 0}, {1, 0}};
+    cloth.springs.structural.compliance = cloth.springs.shear.compliance = compliance;
+    cloth.pin(Corner::top_left).pin(Corner::top_right);
+    scene.add(cloth);
+    return scene;
+}
+
+TEST(ImplicitStep, TheLargestResidualIsThatOfAllSteps)
+{
+    // The same steps, one or four in a frame.
+    Scene one = hanging_sheet(8), four = one;
+    one.time.frame_rate = 240;
+    four.time.substeps = 4;
+    for (const Backend backend : {Backend::reference, Backend::cpu}) {
+        Simulation by_step(one, test::on(backend)), by_frame(four, test::on(backend));
+        double largest = 0;
+        for (int k = 0; k < 12; ++k) {
+            by_frame.advance(frame);
+            for (int step = 0; step < 4; ++step) {
+                by_step.advance(frame / 4);
+                largest = std::max(largest, by_step.report().solver.residual_last);
+                ASSERT_EQ(by_step.report().solver.residual_max, largest)
+                    << name_of(backend) << ", frame " << k;
+            }
+            ASSERT_EQ(by_frame.report().solver.residual_max, largest) << name_of(backend) << ", frame " << k;
+        }
+        ASSERT_EQ(by_step.state_hash(), by_frame.state_hash());
+        EXPECT_NE(by_step.report().solver.residual_last, largest);  // or the above says nothing
+    }
+}
+
+TEST(ImplicitStep, LosesNoEnergyByNotConvergingWhereItConverges)
+{
+    Scene scene = hanging_sheet(8, 1e-5);
+    scene.cloth_handle(0)->damping = 0;
+    scene.newton_multigrid.newton_iterations = 60;
+    scene.newton_multigrid.newton_tolerance = 1e-6;
+    scene.newton_multigrid.linear_iterations = 60;
+    scene.newton_multigrid.linear_tolerance = 1e-4;
+    Simulation simulation(scene, test::on(Backend::reference));
+    for (int k = 0; k < 60; ++k) simulation.advance(frame);
+    RecordProperty("lost", std::to_string(simulation.report().solver.energy_lost));
+    std::printf("measured: energy lost %g J\n", simulation.report().solver.energy_lost);
+    EXPECT_LE(std::abs(simulation.report().solver.energy_lost), 1e-2 * 0.3 * 9.81 * 1.0);
+}
+
+TEST(SheetHierarchy, CyclesDoNotGrowWithTheSheet)
+{
+    for (const std::uint32_t n : {16u, 33u, 64u})
+        for (const double compliance : {1e-6, 1e-4}) {
+            Scene scene = hanging_sheet(n, compliance);
+            auto& newton = scene.newton_multigrid;
+            newton.resists = Resists::both;
+            newton.newton_iterations = 1;
+            newton.linear_iterations = 100;
+            newton.linear_tolerance = 1e-3;
+            Simulation simulation(scene, test::on(Backend::cpu));
+            for (int k = 0; k < 3; ++k) {
+                simulation.advance(frame);
+                std::printf("measured: %u, %g, frame %d: %u cycles\n", n, compliance, k,
+                            simulation.report().solver.iterations_last);
+                EXPECT_GE(simulation.report().solver.iterations_last, 1u);
+                EXPECT_LE(simulation.report().solver.iterations_last, 25u)
+                    << n << " x " << n << " nodes, compliance " << compliance << ", frame " << k;
+            }
+        }
+}
+
+}  // namespace
+}  // namespace pliant
