@@ -25,7 +25,11 @@ namespace pliant {
 namespace {
 
 using Json = nlohmann::ordered_json;
-std::string golden_file() { return std::string(test::project_folder) + "/tests/golden_hashes.json"; }
+const std::string& golden_file()
+{
+    static const std::string name = std::string(test::project_folder) + "/tests/golden_hashes.json";
+    return name;
+}
 
 std::string setting(const char* name)
 {

@@ -149,7 +149,7 @@ TEST_P(SolverParity, AllBackendsAgree)
         const State state = state_after(*make_cpu_runner({&model, 1}, way.options()), model, colliders);
         EXPECT_LE(test::largest_difference(state.position, exact.position), tolerance) << way;
         if (first.position.empty()) first = state;
-        expect_same(state, first, way);
+        expect_same(state, first, testing::PrintToString(way));
     }
     if (test::has_vulkan) {
         const auto vulkan = make_vulkan_runner({&model, 1}, test::on(Backend::vulkan));
