@@ -297,10 +297,10 @@ TEST(LimitsLayer, ReportsTheTable)
 TEST(LimitsLayer, AllocationsComeBack)
 {
     const Opened opened("tiny_allocations");
-    for (int k = 0; k < 3; ++k) EXPECT_NO_THROW(allocate(opened, 2));
+    for (int k = 0; k < 3; ++k) EXPECT_NO_THROW(allocate(opened, 1));
     EXPECT_EQ(opened.said(), "");
-    EXPECT_THROW(allocate(opened, 3), vk::TooManyObjectsError);
-    EXPECT_NO_THROW(allocate(opened, 2));
+    EXPECT_THROW(allocate(opened, 2), vk::TooManyObjectsError);
+    EXPECT_NO_THROW(allocate(opened, 1));
 }
 
 TEST(LimitsLayer, OneDeviceHasWhatTheTinyOnesLack)

@@ -179,7 +179,8 @@ constexpr TestDevice tiny_devices[] = {
     with(enough("tiny_push", "made up: 4 bytes of push constants"), &TestDevice::push_constants, 4),
     with(enough("tiny_range", "made up: storage buffers of 64 KiB"), &TestDevice::storage_range,
          64 * kibibyte),
-    with(enough("tiny_allocations", "made up: 2 allocations"), &TestDevice::allocations, 2),
+    with(enough("tiny_allocations", "made up: 1 allocation"), &TestDevice::allocations, 1),
+    with(enough("no_allocations", "made up: no memory at all"), &TestDevice::allocations, 0),
     with(enough("tiny_slots", "made up: 4 places for buffers in a stage"), &TestDevice::buffer_slots, 4),
 };
 
