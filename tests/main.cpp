@@ -29,21 +29,24 @@ class SkipListener final : public testing::EmptyTestEventListener {
     std::string name_;
 };
 
-/// Takes all tests out of the filter that other files have.
+/// Narrows the filter to the tests that these files have.
 void keep_files(const std::set<std::string>& files)
 {
     const testing::UnitTest& tests = *testing::UnitTest::GetInstance();
-    std::string others;
+    std::string theirs, others;
     for (int i = 0; i < tests.total_test_suite_count(); ++i) {
         const testing::TestSuite& suite = *tests.GetTestSuite(i);
         for (int j = 0; j < suite.total_test_count(); ++j) {
             const testing::TestInfo& test = *suite.GetTestInfo(j);
-            if (!files.contains(std::filesystem::path(test.file()).stem()))
-                others += std::string(":") + suite.name() + "." + test.name();
+            std::string& list = files.contains(std::filesystem::path(test.file()).stem()) ? theirs : others;
+            list += std::string(":") + suite.name() + "." + test.name();
         }
     }
     const std::string filter = GTEST_FLAG_GET(filter);
-    GTEST_FLAG_SET(filter, filter + (filter.find('-') == std::string::npos ? "-" : "") + others);
+    if (filter == "*" || filter.starts_with('-'))
+        GTEST_FLAG_SET(filter, theirs + (filter == "*" ? "" : filter));
+    else
+        GTEST_FLAG_SET(filter, filter + (filter.find('-') == std::string::npos ? "-" : "") + others);
 }
 
 }  // namespace
