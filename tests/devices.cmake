@@ -16,7 +16,10 @@ foreach(device quest3 mali_g78 mali_g57 adreno_610 apple_m1 iris_xe)
             "PLIANT_TEST_DEVICE=${device};PLIANT_EXPECT_DEVICE=${device} over llvmpipe;VK_LOADER_DRIVERS_SELECT=*lvp*;VK_LAYER_PATH=${limits_layer_path};VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation:VK_LAYER_PLIANT_limits")
     endforeach()
 endforeach()
+set_tests_properties(limits.quest3.pass_test limits.quest3.body_pass_test PROPERTIES LABELS quick)
 
+add_test(NAME machine_report COMMAND ${PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/machine_report_test.py $<TARGET_FILE:pliant_tool>)
+set_tests_properties(machine_report PROPERTIES TIMEOUT 600 ENVIRONMENT "VK_LOADER_DRIVERS_SELECT=*lvp*")
 add_test(NAME limits.refusals COMMAND ${PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/limits_refusals_test.py $<TARGET_FILE:pliant_tool>
     ${limits_layer_path})
 set_tests_properties(limits.refusals PROPERTIES TIMEOUT 600)
