@@ -5,7 +5,8 @@ function(pliant_set_flags target)
         -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion
         $<$<BOOL:${PLIANT_WARNINGS_AS_ERRORS}>:-Werror>)
     # Vectors wider than the baseline never cross a function that is not inlined.
-    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi -Wno-ignored-attributes>)
+    target_compile_options(${target} PRIVATE
+        -Wno-psabi $<$<CXX_COMPILER_ID:GNU>:-Wno-ignored-attributes>)
     # GCC 12 warns of overlaps in std::string operations that do not exist (its bug 105329).
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
     if(PLIANT_SANITIZE)

@@ -147,12 +147,14 @@ def write(path, content):
     path.write_bytes(data)
 
 
-def copy_tree(texts):
+def copy_tree(texts, wanted_tests):
+    """Tests that nobody wants are empty files."""
     listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard", "-z"], cwd=ROOT, check=True,
                             capture_output=True, text=True).stdout.split("\0")
     files = {f for f in listed if f and (ROOT / f).is_file()}
     for file in files:
-        write(SOURCE / file, texts.get(file) or (ROOT / file).read_bytes())
+        is_left_out = file.startswith("tests/") and file.endswith("_test.cpp") and file not in wanted_tests
+        write(SOURCE / file, b"" if is_left_out else texts.get(file) or (ROOT / file).read_bytes())
         shutil.copymode(ROOT / file, SOURCE / file)
     # Where every file of the library may see it.
     laws = "src/laws/laws.hpp"
@@ -188,6 +190,7 @@ class Killer:
             environment["PLIANT_MUTANT"] = str(mutant)
         if without_device:
             environment["VK_DRIVER_FILES"] = environment["VK_ICD_FILENAMES"] = "/nonexistent"
+            environment["PLIANT_NO_VULKAN"] = "1"  # tests/test_runners.hpp
         command = list(self.command)
         if self.is_gtest:
             if left_out:
@@ -223,6 +226,22 @@ class Killer:
             return self.seen[without_device]
 
 
+def suites_of_files():
+    suites = {}
+    for path in sorted((ROOT / "tests").rglob("*_test.cpp")):
+        for suite in re.findall(r"^TEST(?:_[FP])?\(\s*(\w+)\s*,", path.read_text(), re.M):
+            files = suites.setdefault(suite, [])
+            if str(path.relative_to(ROOT)) not in files:
+                files.append(str(path.relative_to(ROOT)))
+    return suites
+
+
+def tests_of(mutants):
+    """The files of their killers."""
+    suites = suites_of_files()
+    return {f for m in mutants for name in m.killers for f in suites.get(re.match(r"\w*", name.split()[-1])[0], [])}
+
+
 class Tests:
     def __init__(self):
         listed = json.loads(run(["ctest", "--show-only=json-v1"], cwd=BUILD).stdout)["tests"]
@@ -232,14 +251,7 @@ class Tests:
                 properties = {p["name"]: p["value"] for p in test.get("properties", [])}
                 environment = dict(e.split("=", 1) for e in properties.get("ENVIRONMENT", []))
                 self.ctest[test["name"]] = (test["command"], environment)
-        self.suites, self.known = {}, {}  # suite -> {(program, source)}
-        for entry in json.loads((BUILD / "compile_commands.json").read_text()):
-            file = Path(entry["file"])
-            if "tests" not in file.parts or not file.is_file():
-                continue
-            target = re.search(r" -o \S*?CMakeFiles/([^/ ]+)\.dir/", entry["command"])
-            for suite in re.findall(r"^TEST(?:_[FP])?\(\s*(\w+)\s*,", file.read_text(), re.M):
-                self.suites.setdefault(suite, set()).add((target[1], str(file.relative_to(SOURCE))))
+        self.suites, self.known = suites_of_files(), {}
 
     def killers(self, name):
         if name in self.known:
@@ -254,14 +266,9 @@ class Tests:
         else:
             pattern = name if "." in name or "*" in name else name + ".*"
             suite = re.match(r"\w*", name)[0]
-            places = {}
-            for known, where in self.suites.items():
-                if known == suite or ("." not in name and "*" in name and known.startswith(suite)):
-                    for program, source in where:
-                        places.setdefault(program, set()).add(source)
-            for program, sources in sorted(places.items()):
-                command = [str(BUILD / "bin" / program), f"--gtest_filter={pattern}:*/{pattern}"]
-                found.append(Killer(name, command, [f"bin/{program}"], True, sorted(sources), settings))
+            if suite in self.suites:
+                command = [str(BUILD / "bin/pliant_tests"), f"--gtest_filter={pattern}:*/{pattern}"]
+                found.append(Killer(name, command, ["bin/pliant_tests"], True, self.suites[suite], settings))
         self.known[whole_name] = found
         return found
 
@@ -279,12 +286,11 @@ class Run:
         self.options, self.mutants = options, mutants
         self.texts = with_branches(mutants)
         WORK.mkdir(parents=True, exist_ok=True)
-        copy_tree(self.texts)
-        if not (BUILD / "build.ninja").is_file():
-            say("configuring")
-            result = run(["cmake", "-S", str(SOURCE), "-B", str(BUILD), *OPTIONS])
-            if result.returncode:
-                sys.exit(result.stdout + result.stderr)
+        copy_tree(self.texts, tests_of(mutants))
+        is_new = not (BUILD / "build.ninja").is_file()
+        result = run(["cmake", "-S", str(SOURCE), "-B", str(BUILD), *(OPTIONS if is_new else [])])
+        if result.returncode:
+            sys.exit(result.stdout + result.stderr)
         self.tests = Tests()
         self.results = json.loads(RESULTS.read_text()) if RESULTS.is_file() else {}
         self.digests = {m.name: digest(m, self.tests) for m in chosen}
@@ -357,8 +363,8 @@ class Run:
     def alone(self, mutant):
         """A mutant in a build of its own."""
         start = time.monotonic()
-        original = (ROOT / mutant.file).read_text()
-        write(SOURCE / mutant.file, mutant.plain(original))
+        broken = mutant.plain((ROOT / mutant.file).read_text())
+        write(SOURCE / mutant.file, broken)
         try:
             by = None
             if not mutant.is_branch:
@@ -370,18 +376,33 @@ class Run:
                 if unusable:
                     say("          " + "; ".join(unusable))
             if not by and not self.options.named_only:
-                by = self.quick_tests()
+                by = self.quick_tests(mutant, broken)
             self.note(mutant, "killed" if by else "survived", by or "", time.monotonic() - start)
         finally:
-            write(SOURCE / mutant.file, self.texts.get(mutant.file) or original)
+            self.restore(mutant)
 
-    def quick_tests(self):
-        if problem := build([], self.options.jobs):
-            say(problem)
-            return None
-        result = run(["ctest", "-L", "quick", "--stop-on-failure", "--timeout", "1800"], cwd=BUILD)
-        failed = re.search(r"^\s*\d+ - (\S+) \(", result.stdout, re.M)
-        return failed[1] if failed else None
+    def quick_tests(self, mutant, broken):
+        """All of them, for a mutant that its own killers have let pass: the first that is red, and green without it."""
+        red_anyway = set()
+        copy_tree(dict(self.texts, **{mutant.file: broken}), {str(p.relative_to(ROOT)) for p in (ROOT / "tests").rglob("*")})
+        while True:
+            if problem := build([], self.options.jobs):
+                say(problem)
+                return None
+            left_out = ["-E", "^(" + "|".join(red_anyway) + ")$"] if red_anyway else []
+            result = run(["ctest", "-L", "quick", "--stop-on-failure", "--timeout", "1800", *left_out], cwd=BUILD)
+            failed = re.search(r"^\s*\d+ - (\S+) \(", result.stdout, re.M)
+            if not failed:
+                return None
+            self.restore(mutant)
+            build([], self.options.jobs)
+            if run(["ctest", "-R", f"^{re.escape(failed[1])}$"], cwd=BUILD).returncode == 0:
+                return failed[1]
+            red_anyway.add(re.escape(failed[1]))  # rules of the sources, which branches break
+            write(SOURCE / mutant.file, broken)
+
+    def restore(self, mutant):
+        write(SOURCE / mutant.file, self.texts.get(mutant.file) or (ROOT / mutant.file).read_text())
 
     def shaders_as_they_are(self):
         """Killers of mutants that are built alone must be green in the build without any."""

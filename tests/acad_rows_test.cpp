@@ -7,7 +7,6 @@
 #include <cmath>
 #include <set>
 
-#include "backend/cpu/kernels.hpp"
 #include "solve/frame.hpp"
 #include "test_runners.hpp"
 
@@ -131,7 +130,7 @@ TEST_P(AcadRows, AreThoseThatAMarkedSpringReaches)
     const std::vector<Vec3> start = pulled_apart(model, 20);
     const std::set<std::size_t> expected = expected_rows(model, start);
     ASSERT_LT(expected.size(), model.is_sheet() ? 4U : 6U);  // of 64 rows, of 9 groups
-    for (const Backend backend : {Backend::reference, Backend::cpu, Backend::vulkan}) {
+    for (const Backend backend : test::backends()) {
         const auto runner = test::make_runner(backend, model);
         EXPECT_EQ(step_from(*runner, model, start).active, columns) << name_of(backend);
         EXPECT_EQ(live_rows(*runner, model), expected) << name_of(backend);
@@ -142,7 +141,7 @@ TEST_P(AcadRows, AloneAreMoved)
 {
     const std::vector<Vec3> start = pulled_apart(model, 20);
     const std::set<std::size_t> live = expected_rows(model, start);
-    for (const Backend backend : {Backend::reference, Backend::cpu, Backend::vulkan}) {
+    for (const Backend backend : test::backends()) {
         const auto runner = test::make_runner(backend, model), idle = test::make_runner(backend, idle_model);
         const Step held = step_from(*runner, model, start), loose = step_from(*idle, idle_model, start);
         EXPECT_EQ(loose.active, 0) << name_of(backend);
@@ -166,7 +165,7 @@ TEST_P(AcadRows, LeaveNothingForTheNextSolve)
 {
     const std::vector<Vec3> first = pulled_apart(model, 20), second = pulled_apart(model, 47);
     Step on_cpu;
-    for (const Backend backend : {Backend::reference, Backend::cpu, Backend::vulkan}) {
+    for (const Backend backend : test::backends()) {
         const auto used = test::make_runner(backend, model), fresh = test::make_runner(backend, model);
         step_from(*used, model, first);
         const Step after = step_from(*used, model, second), alone = step_from(*fresh, model, second);
@@ -184,17 +183,13 @@ TEST_P(AcadRows, ArePartedAmongThreadsWithoutAChange)
 {
     const std::vector<Vec3> first = pulled_apart(model, 20), second = pulled_apart(model, 21);
     Step one;
-    for (const cpu::Kernels* kernels : cpu::available_kernels())
-        for (const unsigned threads : {1U, 2U, 3U}) {
-            SimulationOptions options;
-            options.threads = threads;
-            options.instruction_set = kernels->name;
-            const auto runner = make_cpu_runner({&model, 1}, options);
-            step_from(*runner, model, first);
-            const Step step = step_from(*runner, model, second);
-            if (one.positions.empty()) one = step;
-            EXPECT_EQ(step.positions, one.positions) << kernels->name << ", " << threads;
-        }
+    for (const test::CpuWay& way : test::cpu_ways()) {
+        const auto runner = make_cpu_runner({&model, 1}, way.options());
+        step_from(*runner, model, first);
+        const Step step = step_from(*runner, model, second);
+        if (one.positions.empty()) one = step;
+        EXPECT_EQ(step.positions, one.positions) << way;
+    }
 }
 
 TEST_P(AcadRows, AreThoseAtASpringThatAPinHolds)

@@ -92,7 +92,7 @@ def main():
     tool = Path(sys.argv[1]).resolve()
     blender = shutil.which("blender")
     if not blender:
-        print("skipped: Blender is not installed; on Debian, install blender")
+        print("skipped: blender: Blender is not installed; on Debian, install blender")
         return SKIPPED
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)

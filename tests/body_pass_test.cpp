@@ -8,7 +8,6 @@
 #include <map>
 #include <random>
 
-#include "backend/cpu/kernels.hpp"
 #include "pliant/mesh_generators.hpp"
 #include "solve/frame.hpp"
 #include "test_bits.hpp"
@@ -136,19 +135,15 @@ TEST_P(BodyPassParity, AllBackendsAgree)
 {
     const Scene scene = scene_of(GetParam());
     const ClothModel model = shaken_model(scene);
-    SimulationOptions options;
-    options.threads = 1;
-    options.instruction_set = cpu::available_kernels().front()->name;
-    const Results expected = results_of(*make_cpu_runner({&model, 1}, options), model, scene);
-    for (const cpu::Kernels* kernels : cpu::available_kernels())
-        for (const unsigned threads : {1u, 2u, 3u, 7u}) {
-            options.threads = threads;
-            options.instruction_set = kernels->name;
-            test::expect_same_bits(expected, results_of(*make_cpu_runner({&model, 1}, options), model, scene),
-                                   std::string(kernels->name) + ", threads " + std::to_string(threads));
-        }
-    test::expect_same_bits(expected, results_of(*test::make_runner(Backend::vulkan, model), model, scene),
-                           "vulkan");
+    Results expected;
+    for (const test::CpuWay& way : test::cpu_ways()) {
+        const Results results = results_of(*make_cpu_runner({&model, 1}, way.options()), model, scene);
+        if (expected.empty()) expected = results;
+        test::expect_same_bits(expected, results, testing::PrintToString(way));
+    }
+    if (test::has_vulkan)
+        test::expect_same_bits(expected, results_of(*test::make_runner(Backend::vulkan, model), model, scene),
+                               "vulkan");
 
     // Against the reference: forces of up to 40 springs of 1,000 N/m, each off by its stiffness times the
     // rounding of positions of up to 1 m, on the lightest node, for two steps; and as much again for

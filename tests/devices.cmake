@@ -29,6 +29,10 @@ foreach(program IN LISTS programs)
         $<TARGET_FILE:pliant_tests> ${program} --gtest_filter=${${program}_filter})
     set_tests_properties(swiftshader.${program} PROPERTIES TIMEOUT 1800 LABELS all SKIP_RETURN_CODE 77)
 endforeach()
+# Sheets of odd sizes, by the hashes that all must have.
+add_test(NAME swiftshader.golden_test COMMAND ${PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/second_driver_test.py tests
+    $<TARGET_FILE:pliant_tests> golden_test --gtest_filter=*_*x*)
+set_tests_properties(swiftshader.golden_test PROPERTIES TIMEOUT 1800 LABELS all SKIP_RETURN_CODE 77 ENVIRONMENT PLIANT_GOLDEN=vulkan)
 # Every scene, on few frames and where it is large on few nodes: it is slow.
 add_test(NAME swiftshader.scenes COMMAND ${PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/second_driver_test.py scenes
     $<TARGET_FILE:pliant_tool> parity:2 flag:1 wind_list:1 falling_sheet:5 chain:2 hanging:1 incline_rest:2 incline_slide:2

@@ -61,14 +61,15 @@ TEST(ImplicitStep, FrictionTakesAClothAlongWithASurfaceThatMoves)
 
 TEST(ImplicitStep, APlateThatRisesIsWhereItIsAtTheEndOfEachStep)
 {
-    // By 5 mm in a step. A node stands m g / k = 0.8 um deep in it.
-    const Scene scene = sheet_on({{0, {0, 0, 0}, {}}, {2, {0, 0.6, 0}, {}}});
+    // By 1 mm in a step: where it was before would be 1 mm off. A node stands m g / k = 0.8 um deep in it,
+    // and the first step is not wholly solved.
+    const Scene scene = sheet_on({{0, {0, 0, 0}, {}}, {2, {0, 0.12, 0}, {}}});
     for (const Backend backend : {Backend::reference, Backend::cpu}) {
         Simulation simulation(scene, test::on(backend));
         for (int k = 1; k <= 30; ++k) {
             simulation.advance(frame);
             for (const Vec3& x : simulation.positions())
-                ASSERT_NEAR(x.y, 0.3 * k * frame + scene.cloth(0).thickness, 1e-4)
+                ASSERT_NEAR(x.y, 0.06 * k * frame + scene.cloth(0).thickness, 1e-5)
                     << name_of(backend) << ", " << k;
         }
     }
@@ -113,14 +114,20 @@ TEST(ImplicitStep, TheLargestResidualIsThatOfAllSteps)
 
 TEST(ImplicitStep, LosesNoEnergyByNotConvergingWhereItConverges)
 {
-    Scene scene = hanging_sheet(8, 1e-5);
+    // What a converged step does lose is by its length: 0.26 % of m g L here. The cloth has by then a kinetic
+    // energy of 20 %, so that a balance that took inertia the wrong way would be far off.
+    Scene scene = hanging_sheet(6, 1e-3);
+    scene.time.substeps = 4;
     scene.cloth_handle(0)->damping = 0;
+    scene.newton_multigrid.resists = Resists::both;
     scene.newton_multigrid.newton_iterations = 60;
     scene.newton_multigrid.newton_tolerance = 1e-6;
     scene.newton_multigrid.linear_iterations = 60;
     scene.newton_multigrid.linear_tolerance = 1e-4;
     Simulation simulation(scene, test::on(Backend::reference));
-    for (int k = 0; k < 60; ++k) simulation.advance(frame);
+    for (int k = 0; k < 15; ++k) simulation.advance(frame);
+    EXPECT_LE(simulation.report().solver.residual_max, 1e-6);
+    EXPECT_GT(simulation.report().measures.kinetic_energy, 0.1 * 0.3 * 9.81 * 1.0);
     RecordProperty("lost", std::to_string(simulation.report().solver.energy_lost));
     std::printf("measured: energy lost %g J\n", simulation.report().solver.energy_lost);
     EXPECT_LE(std::abs(simulation.report().solver.energy_lost), 1e-2 * 0.3 * 9.81 * 1.0);

@@ -1,15 +1,16 @@
 // The one program of all tests in C++, and one process of it for each file of them, so that what a file's
 // tests share (a Vulkan device, its pipelines) is made once:
 //
-//     pliant_tests FILE [options of gtest]    the tests that FILE.cpp has; of those, what --gtest_filter lets
-//     through pliant_tests [options of gtest]         all of them
+//     pliant_tests FILE... [options of gtest]
 //
-// It fails when no test is left, and leaves with 77 when all that were left have been skipped. Reasons for
+// runs the tests that FILE.cpp has, or of all files when none is named; --gtest_filter may leave fewer. It
+// fails when no test is left, and leaves with 77 when all that were left have been skipped. Reasons for
 // skipping stand in lines of their own, which './dev test' gathers.
 #include <gtest/gtest.h>
 
 #include <cstdio>
 #include <filesystem>
+#include <set>
 #include <string>
 
 namespace {
@@ -28,21 +29,24 @@ class SkipListener final : public testing::EmptyTestEventListener {
     std::string name_;
 };
 
-/// Takes all tests out of the filter that other files have.
-void keep_file(const std::string& file)
+/// Narrows the filter to the tests that these files have.
+void keep_files(const std::set<std::string>& files)
 {
     const testing::UnitTest& tests = *testing::UnitTest::GetInstance();
-    std::string others;
+    std::string theirs, others;
     for (int i = 0; i < tests.total_test_suite_count(); ++i) {
         const testing::TestSuite& suite = *tests.GetTestSuite(i);
         for (int j = 0; j < suite.total_test_count(); ++j) {
             const testing::TestInfo& test = *suite.GetTestInfo(j);
-            if (std::filesystem::path(test.file()).stem() != file)
-                others += std::string(":") + suite.name() + "." + test.name();
+            std::string& list = files.contains(std::filesystem::path(test.file()).stem()) ? theirs : others;
+            list += std::string(":") + suite.name() + "." + test.name();
         }
     }
     const std::string filter = GTEST_FLAG_GET(filter);
-    GTEST_FLAG_SET(filter, filter + (filter.find('-') == std::string::npos ? "-" : "") + others);
+    if (filter == "*" || filter.starts_with('-'))
+        GTEST_FLAG_SET(filter, theirs + (filter == "*" ? "" : filter));
+    else
+        GTEST_FLAG_SET(filter, filter + (filter.find('-') == std::string::npos ? "-" : "") + others);
 }
 
 }  // namespace
@@ -50,11 +54,7 @@ void keep_file(const std::string& file)
 int main(int argc, char** argv)
 {
     testing::InitGoogleTest(&argc, argv);
-    if (argc > 2) {
-        std::fprintf(stderr, "usage: %s [FILE] [options of gtest]\n", argv[0]);
-        return 2;
-    }
-    if (argc == 2) keep_file(argv[1]);
+    if (argc > 1) keep_files({argv + 1, argv + argc});
     testing::UnitTest& tests = *testing::UnitTest::GetInstance();
     tests.listeners().Append(new SkipListener);  // which takes ownership
     const int status = RUN_ALL_TESTS();

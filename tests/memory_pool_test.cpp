@@ -84,7 +84,8 @@ TEST(DeviceMemory, OfTwoHundredClothsIsFewAllocations)
 {
     Scene scene;
     for (int k = 0; k < 200; ++k) {
-        Cloth cloth = k % 2 == 0 ? test::flat_sheet(6, 5) : Cloth::mesh(test::irregular_mesh(5, 5), {.density = 0.3});
+        Cloth cloth =
+            k % 2 == 0 ? test::flat_sheet(6, 5) : Cloth::mesh(test::irregular_mesh(5, 5), {.density = 0.3});
         cloth.springs = {{1000, 0.02}, {500, 0.03}, {10, 0.004}};
         scene.add(std::move(cloth));
     }

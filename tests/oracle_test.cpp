@@ -97,7 +97,7 @@ Scene scene_of(const OracleCase& c, bool taut)
     scene.newton_multigrid.friction_speed = 0.05;
     if (c.contact) {
         scene.add(Plane{.point = {0, -0.008, 0}, .normal = {0.05, 1, -0.1}, .friction = 0.3});
-        scene.add(Sphere{.centre = {0.12, -0.29, 0.07},
+        scene.add(Sphere{.centre = {0.1, -0.275, 0.02},
                          .radius = 0.285,
                          .friction = 0.5,
                          .keyframes = {{0, {}, {}}, {1, {0.1, 0.2, -0.3}, {0, 40, 0}}}});

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <string>
 #include <tuple>
@@ -159,6 +160,59 @@ TEST_F(Picture, is_the_same_from_host_and_device_and_every_time)
     renderer.draw(0, on_host, kept);
     EXPECT_EQ(kept.rgba, first.rgba);
     EXPECT_EQ(kept.rgba.data(), memory);
+}
+
+TEST_F(Picture, shows_nothing_of_the_picture_before)
+{
+    // A renderer draws again what cloths, colliders and their shadows touch now or did before, and no more.
+    Sheet sheet = make_sheet(17, 17, 0.8);
+    Scene scene = scene_for(sheet, 0.8);
+    scene.camera.position = {0.5, 2.2, 3};
+    for (const bool with_plane : {true, false}) {
+        if (!with_plane) scene.colliders.clear();
+        scene.add(
+            Sphere{.centre = {-1, 0.3, 0}, .radius = 0.1, .keyframes = {{0, {}, {}}, {1, {2, 0.5, 0}, {}}}});
+        scene.add(Capsule{.start = {0.6, 0.1, -0.5}, .end = {0.9, 0.3, -0.5}, .radius = 0.05});
+        const std::vector<ClothTopology> topologies{sheet.topology()};
+        Renderer renderer(device, scene, topologies);
+        for (int k = 0; k < 6; ++k) {
+            const double time = 0.2 * k, shrink = k == 4 ? 0.2 : 1;
+            std::vector<Vec3> positions;
+            for (const Vec3& x : sheet.positions)
+                positions.push_back(to_float(Vec3d{shrink * double{x.x} - 0.6 + 0.3 * k,
+                                                   double{x.y} - 0.12 * k, shrink * double{x.z} + 0.1 * k}));
+            const std::vector<ClothFrame> frames{HostCloth{positions}};
+            PictureState state{.camera = scene.camera, .time = time, .frames = frames};
+            if (k == 3) state.camera.position.x -= 0.7;
+            Image alone, after;
+            Renderer(device, scene, topologies).draw(state, alone);
+            renderer.draw(state, after);
+            EXPECT_EQ(after.rgba, alone.rgba) << k;
+        }
+    }
+}
+
+TEST_F(Picture, knows_what_it_touches)
+{
+    const Sheet sheet = make_sheet(9, 9, 0.5);
+    const Scene scene = scene_for(sheet, 0.5);
+    const Stage stage = make_stage(scene);
+    const ShapeMeshes meshes = make_shape_meshes();
+    std::vector<PlacedCollider> ground{placed_at(Plane{}, 0)};
+    const auto area_of = [&](std::span<const Vec3> points) {
+        TouchedArea touched(stage, scene.camera, 320, 180, stage.shadow_extent / 2048, ground, meshes);
+        touched.include(points);
+        return touched.area();
+    };
+    const std::optional<PixelArea> area = area_of(sheet.positions);
+    ASSERT_TRUE(area);
+    EXPECT_LT(area->width() * area->height(), 320u * 180 / 2);
+    EXPECT_TRUE(area_of({})->empty());
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    for (const Vec3 point : {Vec3{nan, 0, 0}, Vec3{0, nan, 0}, Vec3{1.7f, 1.3f, 2.4f}})  // behind the camera
+        EXPECT_FALSE(area_of(std::array{point})) << point.x;
+    ground[0].moves = true;
+    EXPECT_FALSE(area_of(sheet.positions));
 }
 
 TEST_F(Picture, takes_uploads_while_others_are_on_their_way)

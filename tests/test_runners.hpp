@@ -1,17 +1,34 @@
 // Backends below the public face, for tests of passes.
 #pragma once
 
+#include <cstdlib>
 #include <memory>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "backend/cpu/kernels.hpp"
 #include "backend/pass_runner.hpp"
 #include "backend/vulkan/device.hpp"
 #include "backend/vulkan/vulkan_runner.hpp"
 #include "test_cloths.hpp"
 
 namespace pliant::test {
+
+/// Everywhere but in an emulator of another machine, and where nobody wants it (scripts/mutants.py).
+#if defined(PLIANT_NO_VULKAN_DRIVER)
+inline constexpr bool has_vulkan = false;
+#else
+inline const bool has_vulkan = std::getenv("PLIANT_NO_VULKAN") == nullptr;
+#endif
+
+inline std::vector<Backend> backends()
+{
+    std::vector<Backend> all = {Backend::reference, Backend::cpu};
+    if (has_vulkan) all.push_back(Backend::vulkan);
+    return all;
+}
 
 inline std::unique_ptr<PassRunner> make_runner(Backend backend, const ClothModel& model)
 {
@@ -20,13 +37,42 @@ inline std::unique_ptr<PassRunner> make_runner(Backend backend, const ClothModel
                                          : make_cpu_runner({&model, 1}, {});
 }
 
+/// A way to run the CPU backend; all of them must give the same bits.
+struct CpuWay {
+    const char* instruction_set;
+    unsigned threads;
+    SimulationOptions options() const
+    {
+        return {.backend = Backend::cpu, .threads = threads, .instruction_set = instruction_set};
+    }
+};
+inline std::ostream& operator<<(std::ostream& out, const CpuWay& way)
+{
+    return out << way.instruction_set << ", " << way.threads << " threads";
+}
+inline std::vector<const char*> instruction_sets()
+{
+    std::vector<const char*> names;
+    for (const auto sets : {cpu::available_kernels(), cpu::test_kernels()})
+        for (const cpu::Kernels* kernels : sets) names.push_back(kernels->name);
+    return names;
+}
+/// Every width on every machine, on numbers of threads that part nothing evenly.
+inline std::vector<CpuWay> cpu_ways()
+{
+    std::vector<CpuWay> ways;
+    for (const char* name : instruction_sets())
+        for (const unsigned threads : {1U, 2U, 3U, 7U}) ways.push_back({name, threads});
+    return ways;
+}
+
 /// Tests with one device for all of a suite, so that pipelines are compiled once.
 template <class Parameter>
 class OnOneDevice : public testing::TestWithParam<Parameter> {
 protected:
     static void SetUpTestSuite()
     {
-        device = std::make_shared<vulkan::Device>(vulkan::DeviceOptions{.validation = true});
+        if (has_vulkan) device = std::make_shared<vulkan::Device>(vulkan::DeviceOptions{.validation = true});
     }
     static void TearDownTestSuite() { device.reset(); }
     static inline std::shared_ptr<vulkan::Device> device;

@@ -27,10 +27,10 @@ def run(test, *programs):
     """Runs a test in a folder of its own, and returns its exit code: 0, 1 where a check failed, or SKIPPED."""
     missing = [program for program in programs if not shutil.which(program)]
     if missing:
-        print(f"not installed: {', '.join(missing)}: skipped")
+        print(f"skipped: {Path(sys.argv[0]).stem}: not installed: {', '.join(missing)}")
         return SKIPPED
     if "vulkan" not in subprocess.run([TOOL, "info"], capture_output=True, text=True).stdout:
-        print("there is no Vulkan device: skipped")
+        print(f"skipped: {Path(sys.argv[0]).stem}: there is no Vulkan device")
         return SKIPPED
     with tempfile.TemporaryDirectory() as name:
         test(Path(name))

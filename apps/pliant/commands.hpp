@@ -32,6 +32,7 @@ int run_command(const RunOptions& options);
 int list_command();
 
 struct InfoOptions {
+    bool all = false;         ///< with what is there for tests alone
     std::string report_file;  ///< empty: none
 };
 int info_command(const InfoOptions& options);

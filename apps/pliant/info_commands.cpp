@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "backend/cpu/kernels.hpp"
 #include "backend/vulkan/device_info.hpp"
 #include "commands.hpp"
 #include "info_report.hpp"
@@ -29,6 +30,9 @@ int info_command(const InfoOptions& options)
         std::printf("--backend %s%s: %s (%s), %s\n", name_of(device.backend), index.c_str(),
                     device.name.c_str(), device.kind.c_str(), device.details.c_str());
     }
+    if (options.all)
+        for (const cpu::Kernels* kernels : cpu::test_kernels())
+            std::printf("--backend cpu --instruction-set %s: for tests alone, slow\n", kernels->name);
     const auto refused = vulkan::list_refused_devices();
     for (const vulkan::PhysicalDeviceInfo& device : refused)
         std::printf("refused: %s (%s): %s\n", device.name.c_str(), device.kind.c_str(),

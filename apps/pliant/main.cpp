@@ -201,8 +201,10 @@ void add_info(CLI::App& app, InfoOptions& options)
     CLI::App* info = app.add_subcommand("info", "Backends and devices of this machine, with their limits");
     info->footer(
         "Examples:\n"
+        "  pliant info --all\n"
         "  pliant info --report my_machine.json\n"
         "docs/platforms.md says what becomes of such reports.\n");
+    info->add_flag("--all", options.all, "With the instruction sets that are there for tests alone");
     info->add_option("--report", options.report_file,
                      "Run five scenes on everything there is, and write their hashes and times with what is "
                      "known of the machine, JSON: to send in")

@@ -20,10 +20,15 @@ struct MeshFormat {
     SurfaceMesh (*read)(const MeshSource&);
     void (*write)(std::ostream&, const SurfaceMesh&);  ///< null: it is only read
 };
-constexpr std::array formats = {
-    MeshFormat{".ply", read_ply, write_ply}, MeshFormat{".obj", read_obj, write_obj},
-    MeshFormat{".stl", read_stl, nullptr},   MeshFormat{".off", read_off, nullptr},
-    MeshFormat{".gltf", read_gltf, nullptr}, MeshFormat{".glb", read_gltf, nullptr}};
+constexpr std::array formats = {MeshFormat{".ply", read_ply, write_ply},
+                                MeshFormat{".obj", read_obj, write_obj},
+#if PLIANT_MESH_IMPORT
+                                MeshFormat{".stl", read_stl, nullptr},
+                                MeshFormat{".off", read_off, nullptr},
+                                MeshFormat{".gltf", read_gltf, nullptr},
+                                MeshFormat{".glb", read_gltf, nullptr}
+#endif
+};
 
 [[noreturn]] void fail(std::string_view action, const std::filesystem::path& file, const std::string& reason)
 {

@@ -24,7 +24,7 @@ vk::Extent2D checked(const Device& device, vk::Extent2D size)
 
 OffscreenTarget::OffscreenTarget(const Device& device, vk::Extent2D size)
     : size_(checked(device, size)),
-      format_{.samples = best_samples(device)},
+      format_{.samples = best_samples(device), .keeps = true},
       pass_(make_picture_pass(device, format_)),
       picture_(make_image(device, size, format_.colour,
                           vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc,
@@ -34,14 +34,26 @@ OffscreenTarget::OffscreenTarget(const Device& device, vk::Extent2D size)
       copy_(device.make_buffer(vk::DeviceSize{4} * size.width * size.height,
                                vk::BufferUsageFlagBits::eTransferDst, Memory::readback, "picture"))
 {
+    const vk::raii::CommandBuffer commands = device.make_commands();
+    commands.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
+    commands.pipelineBarrier(
+        vk::PipelineStageFlagBits::eTopOfPipe, vk::PipelineStageFlagBits::eBottomOfPipe, {}, {}, {},
+        vk::ImageMemoryBarrier({}, {}, vk::ImageLayout::eUndefined, format_.final_layout,
+                               VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, *picture_.handle,
+                               {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1}));
+    commands.end();
+    device.run(commands);
 }
 
-void OffscreenTarget::record_copy(const vk::raii::CommandBuffer& commands) const
+void OffscreenTarget::record_copy(const vk::raii::CommandBuffer& commands, const vk::Rect2D& part) const
 {
     // The render pass has left the picture in the layout for copying, and ordered its writes before the copy.
-    commands.copyImageToBuffer(*picture_.handle, format_.final_layout, *copy_,
-                               vk::BufferImageCopy(0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {},
-                                                   {size_.width, size_.height, 1}));
+    const auto x = static_cast<std::uint32_t>(part.offset.x), y = static_cast<std::uint32_t>(part.offset.y);
+    commands.copyImageToBuffer(
+        *picture_.handle, format_.final_layout, *copy_,
+        vk::BufferImageCopy(vk::DeviceSize{4} * (vk::DeviceSize{y} * size_.width + x), size_.width,
+                            size_.height, {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
+                            {part.offset.x, part.offset.y, 0}, {part.extent.width, part.extent.height, 1}));
     barrier(commands, vk::PipelineStageFlagBits::eTransfer, vk::AccessFlagBits::eTransferWrite,
             vk::PipelineStageFlagBits::eHost, vk::AccessFlagBits::eHostRead);
 }

@@ -14,8 +14,16 @@ public:
     const PictureFormat& format() const { return format_; }
     PictureTarget target() const { return {*pass_, *framebuffer_, size_, format_.samples}; }
 
-    /// Behind the drawing, in the same commands: the picture on its way to the host.
-    void record_copy(const vk::raii::CommandBuffer& commands) const;
+    /// The same for a part of the picture; the rest stays what it was.
+    PictureTarget target(const vk::Rect2D& part) const
+    {
+        return {*pass_, *framebuffer_, size_, format_.samples, part};
+    }
+
+    /// Behind the drawing, in the same commands: the picture, or the part that was drawn, on its way to the
+    /// host.
+    void record_copy(const vk::raii::CommandBuffer& commands) const { record_copy(commands, {{}, size_}); }
+    void record_copy(const vk::raii::CommandBuffer& commands, const vk::Rect2D& part) const;
     /// When those have run. Allocates only if `into` had another size.
     void read(Image& into) const;
 

@@ -36,19 +36,21 @@ vk::raii::RenderPass make_picture_pass(const Device& device, const PictureFormat
     using Layout = vk::ImageLayout;
     const bool resolve = many(format.samples);
     const auto attachment = [](vk::Format kind, vk::SampleCountFlagBits samples, Load load, Store store,
-                               Layout final_layout) {
+                               Layout final_layout, Layout first_layout = Layout::eUndefined) {
         return vk::AttachmentDescription({}, kind, samples, load, store, Load::eDontCare, Store::eDontCare,
-                                         Layout::eUndefined, final_layout);
+                                         first_layout, final_layout);
     };
+    const Layout first_layout = format.keeps ? format.final_layout : Layout::eUndefined;  // of the picture
     // The backdrop covers every pixel that nothing else does: colours need no clearing.
     std::vector<vk::AttachmentDescription> attachments{
         attachment(format.colour, format.samples, Load::eDontCare, resolve ? Store::eDontCare : Store::eStore,
-                   resolve ? Layout::eColorAttachmentOptimal : format.final_layout),
+                   resolve ? Layout::eColorAttachmentOptimal : format.final_layout,
+                   resolve ? Layout::eUndefined : first_layout),
         attachment(depth_format, format.samples, Load::eClear, Store::eDontCare,
                    Layout::eDepthStencilAttachmentOptimal)};
     if (resolve)
         attachments.push_back(attachment(format.colour, vk::SampleCountFlagBits::e1, Load::eDontCare,
-                                         Store::eStore, format.final_layout));
+                                         Store::eStore, format.final_layout, first_layout));
 
     const vk::AttachmentReference colour(0, Layout::eColorAttachmentOptimal);
     const vk::AttachmentReference depth(1, Layout::eDepthStencilAttachmentOptimal);

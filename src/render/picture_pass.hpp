@@ -12,6 +12,7 @@ struct PictureFormat {
     vk::Format colour = vk::Format::eR8G8B8A8Srgb;  ///< an sRGB format: the shaders write linear light
     vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e4;
     vk::ImageLayout final_layout = vk::ImageLayout::eTransferSrcOptimal;  ///< of the finished picture
+    bool keeps = false;  ///< the picture begins in that layout, too, and stays where nothing is drawn
 };
 
 constexpr vk::Format depth_format = vk::Format::eD32Sfloat;
@@ -43,6 +44,7 @@ struct PictureTarget {
     vk::Framebuffer framebuffer;
     vk::Extent2D size;
     vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
+    vk::Rect2D part{{}, size};  ///< what is drawn; less than the whole only where the format keeps the rest
 };
 
 }  // namespace pliant::vulkan

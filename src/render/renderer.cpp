@@ -1,5 +1,6 @@
 #include "render/renderer.hpp"
 
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -49,6 +50,29 @@ struct Renderer::Implementation {
     vulkan::OffscreenTarget target;
     vulkan::SceneDrawing drawing;
     vk::raii::CommandBuffer commands;
+
+    /// What the target shows, where that is known: it differs from the empty stage in the area alone.
+    struct Shown {
+        Camera camera;
+        OverlaySet overlays;
+        PixelArea area;
+    };
+    std::optional<Shown> shown;
+
+    /// What must be drawn for the picture that is prepared, and is shown then.
+    PixelArea missing(const PictureState& state, std::optional<Shown>& next) const
+    {
+        const vk::Extent2D size = target.target().size;
+        const bool overlaid = state.overlays != OverlaySet{} && state.overlays != OverlaySet{Overlay::strain};
+        next.reset();
+        if (!overlaid && state.scale == nullptr)
+            if (const auto area = drawing.touched(state, size)) next = {state.camera, state.overlays, *area};
+        const bool same = shown && next && shown->overlays == next->overlays &&
+                          shown->camera.position == next->camera.position &&
+                          shown->camera.target == next->camera.target &&
+                          shown->camera.field_of_view == next->camera.field_of_view;
+        return same ? united(shown->area, next->area) : PixelArea{0, 0, size.width, size.height};
+    }
 };
 
 Renderer::Renderer(std::shared_ptr<vulkan::Device> device, const Scene& scene,
@@ -78,14 +102,22 @@ void Renderer::draw(double time, std::span<const ClothFrame> frames, Image& into
 void Renderer::draw(const PictureState& state, Image& into)
 {
     on_device(*device_, [&] {
-        auto& [camera, target, drawing, commands] = *implementation_;
+        auto& [camera, target, drawing, commands, shown] = *implementation_;
         drawing.prepare(state, target.target().size);
-        commands.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
-        drawing.begin(commands, target.target());
-        drawing.end(commands);
-        target.record_copy(commands);
-        commands.end();
-        device_->run(commands);
+        std::optional<Implementation::Shown> next;
+        const PixelArea area = implementation_->missing(state, next);
+        shown.reset();  // until it is drawn
+        if (!area.empty()) {
+            const vk::Rect2D part({static_cast<std::int32_t>(area.left), static_cast<std::int32_t>(area.top)},
+                                  {area.width(), area.height()});
+            commands.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
+            drawing.begin(commands, target.target(part));
+            drawing.end(commands);
+            target.record_copy(commands, part);
+            commands.end();
+            device_->run(commands);
+        }
+        shown = next;
         target.read(into);
     });
 }
@@ -93,6 +125,7 @@ void Renderer::draw(const PictureState& state, Image& into)
 void Renderer::set_springs(std::size_t cloth, std::span<const DrawnSpring> springs)
 {
     on_device(*device_, [&] { implementation_->drawing.set_springs(cloth, springs); });
+    implementation_->shown.reset();
 }
 
 }  // namespace pliant

@@ -213,6 +213,19 @@ void SceneDrawing::prepare(const PictureState& state, vk::Extent2D size, unsigne
     std::memcpy(slot.uniforms.mapped, &uniforms, sizeof uniforms);
 }
 
+std::optional<PixelArea> SceneDrawing::touched(const PictureState& state, vk::Extent2D size,
+                                               unsigned slot) const
+{
+    TouchedArea touched(stage_, state.camera, size.width, size.height, stage_.shadow_extent / ShadowMap::edge,
+                        slots_[slot].placed, kit_->shapes());
+    for (const ClothFrame& frame : state.frames) {
+        const auto* host = std::get_if<HostCloth>(&frame);
+        if (!host || !host->before.empty()) return std::nullopt;
+        touched.include(host->positions);
+    }
+    return touched.area();
+}
+
 void SceneDrawing::begin(const vk::raii::CommandBuffer& commands, const PictureTarget& target,
                          unsigned slot) const
 {
@@ -362,12 +375,11 @@ void SceneDrawing::record_picture(const vk::raii::CommandBuffer& commands, const
 {
     // Attachments: colours (covered by the backdrop, not cleared), depth.
     const std::array<vk::ClearValue, 2> clear{vk::ClearColorValue{}, vk::ClearDepthStencilValue(1.0f, 0)};
-    const vk::Rect2D area({}, target.size);
-    commands.beginRenderPass(vk::RenderPassBeginInfo(target.pass, target.framebuffer, area, clear),
+    commands.beginRenderPass(vk::RenderPassBeginInfo(target.pass, target.framebuffer, target.part, clear),
                              vk::SubpassContents::eInline);
     commands.setViewport(0, vk::Viewport(0, 0, static_cast<float>(target.size.width),
                                          static_cast<float>(target.size.height), 0, 1));
-    commands.setScissor(0, area);
+    commands.setScissor(0, target.part);
 
     // From the front to the back, so that what is hidden costs no shading.
     bind(commands, Drawn::cloth);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <variant>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "render/legend.hpp"
 #include "render/pipelines.hpp"
 #include "render/stage.hpp"
+#include "render/touched_area.hpp"
 
 namespace pliant {
 
@@ -86,6 +88,9 @@ public:
     /// commands of the slot's last picture must have run: what they read is written here. Throws
     /// Error(bad_usage) for frames of another size.
     void prepare(const PictureState& state, vk::Extent2D size, unsigned slot = 0);
+    /// Where the picture that was prepared, without its overlays, differs from one of the empty stage. None
+    /// where that is not known: positions on the device are not looked at.
+    std::optional<PixelArea> touched(const PictureState& state, vk::Extent2D size, unsigned slot = 0) const;
     /// Records the picture that was prepared: shadows and the picture itself. The render pass of the picture
     /// is left open, so that more can be drawn over it; `end` closes it.
     void begin(const vk::raii::CommandBuffer& commands, const PictureTarget& target, unsigned slot = 0) const;

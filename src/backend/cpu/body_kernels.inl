@@ -141,8 +141,7 @@ inline void step_block(const BodyArguments& a, std::size_t b)
     });
 }
 
-__attribute__((flatten)) void ring_step(const BodyArguments& a, std::size_t first_block,
-                                        std::size_t end_block)
+PLIANT_IN_ONE_PIECE void ring_step(const BodyArguments& a, std::size_t first_block, std::size_t end_block)
 {
     for (std::size_t b = first_block; b < end_block; ++b)
         if (a.has_pressure)
@@ -196,8 +195,7 @@ inline L::VolumeCubic where(const L::mask& m, const L::VolumeCubic& a)
             L::choose(m, a.third, zero),  L::choose(m, a.arm, {zero, zero, zero})};
 }
 
-__attribute__((flatten)) void volume_gather(const BodyArguments& a, std::size_t first_block,
-                                            std::size_t end_block)
+PLIANT_IN_ONE_PIECE void volume_gather(const BodyArguments& a, std::size_t first_block, std::size_t end_block)
 {
     const StepConstants<float>& c = *a.constants;
     const Vector gravity = spread_vector<Number>(c.gravity);
@@ -236,8 +234,7 @@ __attribute__((flatten)) void volume_gather(const BodyArguments& a, std::size_t 
     }
 }
 
-__attribute__((flatten)) void volume_step(const BodyArguments& a, std::size_t first_block,
-                                          std::size_t end_block)
+PLIANT_IN_ONE_PIECE void volume_step(const BodyArguments& a, std::size_t first_block, std::size_t end_block)
 {
     const StepConstants<float>& c = *a.constants;
     const Number dt(c.dt), thickness(c.thickness);
@@ -332,8 +329,7 @@ inline void sum_fans(const BodyArguments& a, std::size_t first_block, std::size_
     }
 }
 
-__attribute__((flatten)) void volume_cubic(const BodyArguments& a, std::size_t first_block,
-                                           std::size_t end_block)
+PLIANT_IN_ONE_PIECE void volume_cubic(const BodyArguments& a, std::size_t first_block, std::size_t end_block)
 {
     if (a.measures)
         sum_fans<true>(a, first_block, end_block);
@@ -341,8 +337,8 @@ __attribute__((flatten)) void volume_cubic(const BodyArguments& a, std::size_t f
         sum_fans<false>(a, first_block, end_block);
 }
 
-__attribute__((flatten)) void volume_correct(const BodyArguments& a, std::size_t first_block,
-                                             std::size_t end_block)
+PLIANT_IN_ONE_PIECE void volume_correct(const BodyArguments& a, std::size_t first_block,
+                                        std::size_t end_block)
 {
     const Number inverse_dt(a.constants->inverse_dt);
     for (std::size_t b = first_block; b < end_block; ++b) {

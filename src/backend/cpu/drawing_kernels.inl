@@ -1,8 +1,7 @@
 // What is drawn of a sheet: included by kernels.inl, inside its unnamed namespace.
 
 /// As PlainCloth::sheet_normals: the quads around a node, each by its corners.
-__attribute__((flatten)) void sheet_normal(const SheetArguments& a, std::size_t first_row,
-                                           std::size_t end_row)
+PLIANT_IN_ONE_PIECE void sheet_normal(const SheetArguments& a, std::size_t first_row, std::size_t end_row)
 {
     const auto rows = static_cast<std::ptrdiff_t>(a.layout->rows),
                columns = static_cast<std::ptrdiff_t>(a.layout->columns);
@@ -32,8 +31,7 @@ __attribute__((flatten)) void sheet_normal(const SheetArguments& a, std::size_t 
 }
 
 /// As PlainCloth::sheet_strains: the most stretched of a node's structural and shear springs.
-__attribute__((flatten)) void sheet_strain(const SheetArguments& a, std::size_t first_row,
-                                           std::size_t end_row)
+PLIANT_IN_ONE_PIECE void sheet_strain(const SheetArguments& a, std::size_t first_row, std::size_t end_row)
 {
     const auto rows = static_cast<std::ptrdiff_t>(a.layout->rows),
                columns = static_cast<std::ptrdiff_t>(a.layout->columns);

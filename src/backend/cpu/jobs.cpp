@@ -5,9 +5,11 @@
 #include <thread>
 #include <vector>
 
+#if PLIANT_TBB
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#endif
 
 #if defined(__x86_64__)
 #include <xmmintrin.h>
@@ -16,9 +18,10 @@
 namespace pliant::cpu {
 namespace {
 
-class TbbJobs final : public JobSystem {
+#if PLIANT_TBB
+class OwnJobs final : public JobSystem {
 public:
-    explicit TbbJobs(unsigned threads) : threads_(threads), arena_(static_cast<int>(threads))
+    explicit OwnJobs(unsigned threads) : threads_(threads), arena_(static_cast<int>(threads))
     {
         // A control holds for the whole program of our host, so it may only allow more threads, never fewer.
         if (static_cast<int>(threads) > tbb::this_task_arena::max_concurrency())
@@ -39,13 +42,12 @@ private:
     tbb::task_arena arena_;
 };
 
-#if defined(__SANITIZE_THREAD__)
-/// For the tsan preset alone: Debian's oneTBB is not built for ThreadSanitizer, which therefore cannot see
-/// how it hands tasks over and takes every one for a race. Plain threads it understands, and the tasks are
-/// the same.
-class PlainJobs final : public JobSystem {
+#else
+/// Where there is no oneTBB; and for ThreadSanitizer, which cannot see how Debian's oneTBB hands tasks over
+/// and takes every one for a race. The tasks are the same, and a frame begins its threads but once (Team).
+class OwnJobs final : public JobSystem {
 public:
-    explicit PlainJobs(unsigned threads) : threads_(threads) {}
+    explicit OwnJobs(unsigned threads) : threads_(threads) {}
     unsigned thread_count() const override { return threads_; }
     void run(unsigned count, void (*task)(void*, unsigned), void* context) override
     {
@@ -57,9 +59,6 @@ public:
 private:
     unsigned threads_;
 };
-using OwnJobs = PlainJobs;
-#else
-using OwnJobs = TbbJobs;
 #endif
 
 }  // namespace

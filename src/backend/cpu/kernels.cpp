@@ -9,6 +9,7 @@ namespace pliant::cpu {
 
 extern const Kernels kernels_baseline, kernels_avx2, kernels_avx512;
 extern const Kernels kernels_avx2_fast, kernels_avx512_fast;
+extern const Kernels kernels_lanes8, kernels_lanes16;
 
 namespace {
 
@@ -37,6 +38,8 @@ const Kernels& exact_kernels(const std::string& name)
         if (kernels->name == name) return *kernels;
         names += (names.empty() ? "" : ", ") + std::string(kernels->name);
     }
+    for (const Kernels* kernels : test_kernels())
+        if (kernels->name == name) return *kernels;
     throw Error(ErrorKind::bad_usage,
                 "the instruction set '" + name + "' is not available: this machine has " + names);
 }
@@ -57,6 +60,16 @@ std::span<const Kernels* const> available_kernels()
         return list;
     }();
     return available;
+}
+
+std::span<const Kernels* const> test_kernels()
+{
+#if PLIANT_EVERY_WIDTH
+    static constexpr const Kernels* kernels[] = {&kernels_lanes8, &kernels_lanes16};
+    return kernels;
+#else
+    return {};
+#endif
 }
 
 const Kernels& choose_kernels(const std::string& name, bool fast_math)

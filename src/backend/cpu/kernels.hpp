@@ -178,6 +178,9 @@ struct Kernels {
 
 /// Those this build has and this machine can run, narrowest first; never empty.
 std::span<const Kernels* const> available_kernels();
+/// Wider ones by what every machine has, slow and of the same bits: for tests, which therefore see all widths
+/// wherever they run. Only by name; empty in a build without them (PLIANT_EVERY_WIDTH of CMakeLists.txt).
+std::span<const Kernels* const> test_kernels();
 /// By name, or the widest for an empty name; throws Error(bad_usage) that lists the names of this machine.
 /// With `fast_math` those of the same instruction set whose results are not the same everywhere; throws where
 /// there are none (sse2, and other architectures).

@@ -48,7 +48,7 @@ PLIANT_INLINE void store_records(float* records, std::ptrdiff_t offset, const Ve
 }
 
 /// In packs of 16 nodes, those of padding as well.
-__attribute__((flatten)) void record_states(const RecordArguments& a, std::size_t first, std::size_t end)
+PLIANT_IN_ONE_PIECE void record_states(const RecordArguments& a, std::size_t first, std::size_t end)
 {
     for (std::size_t k = first; k < end; k += width) {
         const auto offset = static_cast<std::ptrdiff_t>(k);
@@ -109,7 +109,7 @@ private:
     float d_[3][most], relative_velocity_[3][most], length2_[most], inverse_length_[most];
 };
 
-__attribute__((flatten)) void spring_forces(const SpringArguments& a, std::size_t first, std::size_t end)
+PLIANT_IN_ONE_PIECE void spring_forces(const SpringArguments& a, std::size_t first, std::size_t end)
 {
     const Vector zero{Number(0.0f), Number(0.0f), Number(0.0f)};
     SpringSweeps sweeps;
@@ -132,8 +132,7 @@ __attribute__((flatten)) void spring_forces(const SpringArguments& a, std::size_
     }
 }
 
-__attribute__((flatten)) void list_step(const ListArguments& a, std::size_t first_slice,
-                                        std::size_t end_slice)
+PLIANT_IN_ONE_PIECE void list_step(const ListArguments& a, std::size_t first_slice, std::size_t end_slice)
 {
     using Bits = LaneTypes<width>::Bits;
     /// The force of an entry of each lane, with its sign.

@@ -90,8 +90,8 @@ inline void merge_block(BlockMeasures& measures, std::size_t count, float* to)
     for (int n = 0; n < BlockMeasures::numbers; ++n) to[n] = measures.values[n][0];
 }
 
-__attribute__((flatten)) void sheet_measure(const MeasureArguments& a, std::size_t first_block,
-                                            std::size_t end_block)
+PLIANT_IN_ONE_PIECE void sheet_measure(const MeasureArguments& a, std::size_t first_block,
+                                       std::size_t end_block)
 {
     const std::size_t columns = a.layout->columns;
     BlockMeasures measures;
@@ -117,8 +117,8 @@ __attribute__((flatten)) void sheet_measure(const MeasureArguments& a, std::size
     }
 }
 
-__attribute__((flatten)) void mesh_measure(const MeasureArguments& a, std::size_t first_block,
-                                           std::size_t end_block)
+PLIANT_IN_ONE_PIECE void mesh_measure(const MeasureArguments& a, std::size_t first_block,
+                                      std::size_t end_block)
 {
     const MeasuredSlices& springs = a.springs;
     BlockMeasures measures;

@@ -1,26 +1,32 @@
 // W floats that are computed at once: a thin layer over the compilers' vector extension, which turns into
-// SSE, AVX, AVX-512 or NEON instructions by the flags of the file that includes it. Every width belongs to
-// one such file, so that no instruction set leaks into another through shared templates.
+// SSE, AVX, AVX-512 or NEON instructions by the flags of the file that includes it; where a machine has no
+// registers of W lanes, the compiler takes several. A file with flags of its own has packs of its own, so
+// that no instruction set leaks into another through shared templates.
 #pragma once
 
 #include <cstdint>
+#include <utility>
 
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif
 
+#include "backend/host/inlining.hpp"
 #include "backend/host/lanes.hpp"
 #include "laws/laws.hpp"
 
-/// 1 in files whose arithmetic is fast and not the same everywhere (SimulationOptions::fast_math). Their
-/// packs are a type of their own, so that no function is shared with exact ones.
+/// Where all packs of a file are, and by their names all functions that are made of them.
+#if !defined(PLIANT_PACKS)
+#define PLIANT_PACKS packs_of_baseline
+#endif
+
+/// 1 in files whose arithmetic is fast and not the same everywhere (SimulationOptions::fast_math).
 #if !defined(PLIANT_FAST_MATH)
 #define PLIANT_FAST_MATH 0
 #endif
 
-#define PLIANT_INLINE inline __attribute__((always_inline))
-
 namespace pliant {
+inline namespace PLIANT_PACKS {
 
 /// The compiler's vector types. Spelled out, because GCC applies vector_size too late when the size is a
 /// parameter.
@@ -44,7 +50,7 @@ struct PackMask {
     typename LaneTypes<W>::Integers lanes;  // 0 or -1
 };
 
-template <int W, bool fast = PLIANT_FAST_MATH>
+template <int W>
 struct Pack {
     using Lanes = typename LaneTypes<W>::Floats;
     using UnalignedLanes = typename LaneTypes<W>::UnalignedFloats;
@@ -67,6 +73,8 @@ struct Pack {
     friend Mask operator<(Pack a, Pack b) { return {a.lanes < b.lanes}; }
     friend Mask operator>=(Pack a, Pack b) { return {a.lanes >= b.lanes}; }
 };
+
+}  // namespace PLIANT_PACKS
 
 template <int W>
 struct NumberTraits<Pack<W>> {
@@ -117,6 +125,8 @@ struct NumberTraits<Pack<W>> {
         return false;
     }
 };
+
+inline namespace PLIANT_PACKS {
 
 /// N packs at once: instructions of N chains by turns, so that one fills the waits of the others. Members and
 /// not an array, which GCC would leave in memory.
@@ -193,6 +203,8 @@ struct Group<P, 1> {
     friend PLIANT_INLINE Mask operator>(const Group& a, const Group& b) { return {a.first > b.first}; }
 };
 
+}  // namespace PLIANT_PACKS
+
 template <class P, int N>
 struct NumberTraits<Group<P, N>> {
     static constexpr int inverse_sqrt_steps = NumberTraits<P>::inverse_sqrt_steps;
@@ -207,37 +219,56 @@ struct NumberTraits<Group<P, N>> {
     }
 };
 
-/// 0, 1, ... W - 1 times `step` from `first` on, as lanes for a shuffle of two packs.
-template <int W, int first, int step, class Floats>
-inline Floats every_lane(Floats a, Floats b)
+inline namespace PLIANT_PACKS {
+
+/// Lane k of the result is lane Place::of(k) of a, or of b behind it.
+template <class Place, class Floats, int... k>
+PLIANT_INLINE Floats shuffled(Floats a, Floats b, std::integer_sequence<int, k...>)
 {
-    typename LaneTypes<W>::Integers lanes;
-    for (int k = 0; k < W; ++k) lanes[k] = first + k * step;
-    return __builtin_shuffle(a, b, lanes);
+    return __builtin_shufflevector(a, b, Place::of(k)...);
+}
+template <int W, class Place, class Floats>
+PLIANT_INLINE Floats shuffled(Floats a, Floats b)
+{
+    return shuffled<Place>(a, b, std::make_integer_sequence<int, W>());
 }
 
 /// Every second lane from `first`, 0 or 1, on: of a, then of b. With 8 lanes in two steps, of which none
 /// crosses halves and moves lanes of both.
+template <int first>
+struct SecondLane {
+    static consteval int of(int k) { return first + 2 * k; }
+};
+template <int first>
+struct SecondLaneByHalves {
+    static consteval int of(int k) { return first + k / 4 * 4 + (k % 4 < 2 ? 2 * k % 4 : 8 + 2 * k % 4); }
+};
+struct MiddlePairsSwapped {
+    static consteval int of(int k) { return k / 2 % 3 == 0 ? k : k < 4 ? k + 2 : k - 2; }
+};
 template <int W, int first, class Floats>
-inline Floats second_lanes(Floats a, Floats b)
+PLIANT_INLINE Floats second_lanes(Floats a, Floats b)
 {
     if constexpr (W == 8) {
-        using Integers = typename LaneTypes<W>::Integers;
-        const Floats pairs = __builtin_shuffle(a, b, Integers{0, 2, 8, 10, 4, 6, 12, 14} + first);
-        return __builtin_shuffle(pairs, Integers{0, 1, 4, 5, 2, 3, 6, 7});
+        const Floats pairs = shuffled<W, SecondLaneByHalves<first>>(a, b);
+        return shuffled<W, MiddlePairsSwapped>(pairs, pairs);
     } else {
-        return every_lane<W, first, 2>(a, b);
+        return shuffled<W, SecondLane<first>>(a, b);
     }
 }
 
 /// By turns a lane of a and one of b, from lane `first` on.
+template <int W, int first>
+struct LaneByTurns {
+    static consteval int of(int k) { return first + k / 2 + k % 2 * W; }
+};
 template <int W, int first, class Floats>
-inline Floats lanes_by_turns(Floats a, Floats b)
+PLIANT_INLINE Floats lanes_by_turns(Floats a, Floats b)
 {
-    typename LaneTypes<W>::Integers lanes;
-    for (int k = 0; k < W; ++k) lanes[k] = first + k / 2 + (k % 2) * W;
-    return __builtin_shuffle(a, b, lanes);
+    return shuffled<W, LaneByTurns<W, first>>(a, b);
 }
+
+}  // namespace PLIANT_PACKS
 
 template <int W>
 struct Lanes<Pack<W>> {

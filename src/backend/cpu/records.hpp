@@ -5,20 +5,23 @@
 #include "backend/cpu/pack.hpp"
 
 namespace pliant {
+inline namespace PLIANT_PACKS {
 
 typedef float Quad __attribute__((vector_size(16)));
 
 /// Lanes i0 ... i3 of each quad of a (0 to 3) and of b (4 to 7), quad by quad.
+template <int W, int i0, int i1, int i2, int i3>
+struct LaneOfQuads {
+    static consteval int of(int k)
+    {
+        const int from = k % 4 == 0 ? i0 : k % 4 == 1 ? i1 : k % 4 == 2 ? i2 : i3, quad = k / 4 * 4;
+        return from < 4 ? quad + from : W + quad + from - 4;
+    }
+};
 template <int W, int i0, int i1, int i2, int i3, class Floats>
 PLIANT_INLINE Floats quads_of(Floats a, Floats b)
 {
-    constexpr int lane[4] = {i0, i1, i2, i3};
-    typename LaneTypes<W>::Integers lanes;
-    for (int k = 0; k < W; ++k) {
-        const int from = lane[k % 4], quad = k / 4 * 4;
-        lanes[k] = from < 4 ? quad + from : W + quad + from - 4;
-    }
-    return __builtin_shuffle(a, b, lanes);
+    return shuffled<W, LaneOfQuads<W, i0, i1, i2, i3>>(a, b);
 }
 
 /// a, and behind it b.
@@ -82,4 +85,5 @@ PLIANT_INLINE void quads_from_vectors(const Vector3<Pack<W>>& a, const Function&
     }
 }
 
+}  // namespace PLIANT_PACKS
 }  // namespace pliant

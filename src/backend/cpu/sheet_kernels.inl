@@ -110,8 +110,8 @@ PLIANT_INLINE void carry_on(const Vectors& below, std::ptrdiff_t column, std::pt
 
 /// One row of a step; `moves`: else the row is of another part, and only what its springs leave is wanted.
 template <bool moves>
-__attribute__((flatten)) void step_row(const SheetArguments& a, const Vectors& here, const Vectors& below,
-                                       std::ptrdiff_t row)
+PLIANT_IN_ONE_PIECE void step_row(const SheetArguments& a, const Vectors& here, const Vectors& below,
+                                  std::ptrdiff_t row)
 {
     const auto columns = static_cast<std::ptrdiff_t>(a.layout->columns);
     const bool inner_row = row + 2 < static_cast<std::ptrdiff_t>(a.layout->rows);

@@ -4,6 +4,7 @@
 // include it.
 #pragma once
 
+#include "backend/host/inlining.hpp"
 #include "backend/host/lanes.hpp"
 #include "backend/host/solver_context.hpp"
 #include "body/hierarchy.hpp"
@@ -23,7 +24,7 @@ struct SolverKernels {
 
     // --- what the kernels' text calls ---
 
-#define KERNEL inline __attribute__((always_inline))
+#define KERNEL PLIANT_INLINE
 #define UNROLL _Pragma("GCC unroll 9")
 #include "kernels/block.kernel.glsl"
 
