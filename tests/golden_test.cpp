@@ -82,7 +82,7 @@ std::map<std::uint64_t, std::string> hashes_of(const Case& c, const SimulationOp
 /// Every width, and every number of threads, but not each with each.
 std::vector<test::CpuWay> ways_by_turns()
 {
-    const std::vector<test::CpuWay> all = test::cpu_ways();
+    const std::vector<test::CpuWay> all = test::every_cpu_way();
     const std::size_t sets = test::instruction_sets().size(), threads = all.size() / sets;
     std::vector<test::CpuWay> ways;
     for (std::size_t k = 0; k < sets; ++k) ways.push_back(all[k * threads + (k + 1) % threads]);
@@ -133,7 +133,7 @@ TEST_P(Golden, HashesAreThoseOfTheFile)
     };
     if (golden != "vulkan") {
         if (all || GetParam().every_way)
-            for (const test::CpuWay& way : test::cpu_ways())
+            for (const test::CpuWay& way : test::every_cpu_way())
                 expect_hashes(way.options(), testing::PrintToString(way), false);
         if (all || !GetParam().every_way)
             for (const test::CpuWay& way : ways_by_turns())

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <memory>
 #include <random>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -57,12 +58,23 @@ inline std::vector<const char*> instruction_sets()
         for (const cpu::Kernels* kernels : sets) names.push_back(kernels->name);
     return names;
 }
-/// Every width on every machine, on numbers of threads that part nothing evenly.
-inline std::vector<CpuWay> cpu_ways()
+/// Every width on every machine, each on numbers of threads that part nothing evenly.
+inline std::vector<CpuWay> every_cpu_way()
 {
     std::vector<CpuWay> ways;
     for (const char* name : instruction_sets())
         for (const unsigned threads : {1U, 2U, 3U, 7U}) ways.push_back({name, threads});
+    return ways;
+}
+/// Every width and every number of threads, but only the machine's widest set with each of them: packs for
+/// tests alone are slow. With PLIANT_EVERY_WAY=1, as in `./dev test --all`, each with each.
+inline std::vector<CpuWay> cpu_ways()
+{
+    if (std::getenv("PLIANT_EVERY_WAY")) return every_cpu_way();
+    const std::string widest = cpu::available_kernels().back()->name;
+    std::vector<CpuWay> ways;
+    for (const CpuWay& way : every_cpu_way())
+        if (way.threads == 3 || way.instruction_set == widest) ways.push_back(way);
     return ways;
 }
 

@@ -33,7 +33,7 @@ class DeviceCheck final : public testing::Environment {
         const auto devices = vulkan::list_physical_devices();
         ASSERT_FALSE(devices.empty()) << "there is no Vulkan device, instead of " << expected;
         for (const auto& device : devices)
-            EXPECT_NE(device.name.find(expected), std::string::npos)
+            ASSERT_NE(device.name.find(expected), std::string::npos)
                 << device.name << " instead of " << expected;
     }
 };

@@ -58,9 +58,9 @@ Json describe_machine()
     machine["architecture"] = system.machine;
     machine["processor"] = text_or_null(processor_name());
     machine["threads"] = std::thread::hardware_concurrency();
-    machine["instruction_sets"] = Json::array();
-    for (const cpu::Kernels* kernels : cpu::available_kernels())
-        machine["instruction_sets"].push_back(kernels->name);
+    Json sets = Json::array();
+    for (const cpu::Kernels* kernels : cpu::available_kernels()) sets.push_back(kernels->name);
+    machine["instruction_sets"] = std::move(sets);
     machine["compiler"] = __VERSION__;
     return machine;
 }
@@ -78,8 +78,9 @@ Json describe_device(const vulkan::DeviceReport& device)
     d["vendor_id"] = device.vendor_id;
     d["device_id"] = device.device_id;
     d["memory_bytes"] = device.info.memory;
-    d["limits"] = Json::object();
-    for (const auto& [name, value] : device.limits) d["limits"][name] = value;
+    Json limits = Json::object();
+    for (const auto& [name, value] : device.limits) limits[name] = value;
+    d["limits"] = std::move(limits);
     d["flushes_denormals"] = device.info.float_controls.flush_denormals;
     d["rounds_to_nearest"] = device.info.float_controls.round_to_nearest;
     d["promise"] = device.info.promise();
@@ -129,7 +130,7 @@ private:
         run["nodes"] = simulation.node_count();
         run["steps_per_frame"] = simulation.steps_per_frame();
         run["start_seconds"] = seconds_since(start);  // on a device most of it is the compiler of shaders
-        Json& times = run["frame_seconds"] = Json::array();
+        Json times = Json::array();
         for (std::uint64_t frame = 0; frame < scene.frames; ++frame) {
             start = std::chrono::steady_clock::now();
             simulation.advance(1 / read.time.frame_rate);
@@ -138,6 +139,7 @@ private:
                 throw Error(ErrorKind::device_failure, simulation.report().failure);
             progress_.update(++done_, std::string(scene.name) + " on " + where);
         }
+        run["frame_seconds"] = std::move(times);
         run["finite"] = simulation.report().finite;
         run["state_hash"] = hash_text(simulation.state_hash());
         hashes_[scene.name].insert(hash_text(simulation.state_hash()));
@@ -160,8 +162,7 @@ int write_machine_report(const std::string& file)
     report["machine_report"] = 1;
     report["pliant"] = PLIANT_VERSION;
     report["machine"] = describe_machine();
-    Json& places = report["places"] = Json::array();
-    Json& refused = report["refused"] = Json::array();
+    Json places = Json::array(), refused = Json::array();
     std::size_t usable = sets.size();
     for (const vulkan::DeviceReport& device : devices)
         if (device.info.refusal.empty()) ++usable;
@@ -192,6 +193,8 @@ int write_machine_report(const std::string& file)
         }
         differing = runs.differing();
     }
+    report["places"] = std::move(places);
+    report["refused"] = std::move(refused);
     report["differing"] = differing;
     target.stream() << report.dump(2) << '\n';
     target.commit();

@@ -58,20 +58,23 @@ struct Pack {
     Lanes lanes;
 
     Pack() = default;
-    Pack(Lanes a) : lanes(a) {}
-    Pack(float a) : lanes(a - Lanes{}) {}
+    PLIANT_SMALL Pack(Lanes a) : lanes(a) {}
+    PLIANT_SMALL Pack(float a) : lanes(a - Lanes{}) {}
     Pack(double) = delete;  // a literal without f, or a narrowing, does not belong in a law
 
-    static Pack load(const float* p) { return Lanes(*reinterpret_cast<const UnalignedLanes*>(p)); }
-    void store(float* p) const { *reinterpret_cast<UnalignedLanes*>(p) = lanes; }
+    PLIANT_SMALL static Pack load(const float* p)
+    {
+        return Lanes(*reinterpret_cast<const UnalignedLanes*>(p));
+    }
+    PLIANT_SMALL void store(float* p) const { *reinterpret_cast<UnalignedLanes*>(p) = lanes; }
 
-    friend Pack operator+(Pack a, Pack b) { return a.lanes + b.lanes; }
-    friend Pack operator-(Pack a, Pack b) { return a.lanes - b.lanes; }
-    friend Pack operator*(Pack a, Pack b) { return a.lanes * b.lanes; }
-    friend Pack operator-(Pack a) { return -a.lanes; }
-    friend Mask operator>(Pack a, Pack b) { return {a.lanes > b.lanes}; }
-    friend Mask operator<(Pack a, Pack b) { return {a.lanes < b.lanes}; }
-    friend Mask operator>=(Pack a, Pack b) { return {a.lanes >= b.lanes}; }
+    PLIANT_SMALL friend Pack operator+(Pack a, Pack b) { return a.lanes + b.lanes; }
+    PLIANT_SMALL friend Pack operator-(Pack a, Pack b) { return a.lanes - b.lanes; }
+    PLIANT_SMALL friend Pack operator*(Pack a, Pack b) { return a.lanes * b.lanes; }
+    PLIANT_SMALL friend Pack operator-(Pack a) { return -a.lanes; }
+    PLIANT_SMALL friend Mask operator>(Pack a, Pack b) { return {a.lanes > b.lanes}; }
+    PLIANT_SMALL friend Mask operator<(Pack a, Pack b) { return {a.lanes < b.lanes}; }
+    PLIANT_SMALL friend Mask operator>=(Pack a, Pack b) { return {a.lanes >= b.lanes}; }
 };
 
 }  // namespace PLIANT_PACKS
@@ -88,7 +91,7 @@ struct NumberTraits<Pack<W>> {
     static constexpr int inverse_sqrt_steps = NumberTraits<float>::inverse_sqrt_steps;
 #endif
 
-    static Number inverse_sqrt_seed(Number a)
+    PLIANT_SMALL static Number inverse_sqrt_seed(Number a)
     {
 #if PLIANT_FAST_MATH
         // Of 0, too, a finite number: that of the smallest normal one.
@@ -102,13 +105,13 @@ struct NumberTraits<Pack<W>> {
         const Bits seed = 0x5f375a86u - (reinterpret_cast<Bits>(a.lanes) >> 1);
         return reinterpret_cast<typename Number::Lanes>(seed);
     }
-    static Number choose(Mask m, Number a, Number b) { return m.lanes ? a.lanes : b.lanes; }
-    static Mask is_finite(Number a)
+    PLIANT_SMALL static Number choose(Mask m, Number a, Number b) { return m.lanes ? a.lanes : b.lanes; }
+    PLIANT_SMALL static Mask is_finite(Number a)
     {
         const Bits exponent = reinterpret_cast<Bits>(a.lanes) & 0x7f800000u;
         return {exponent != 0x7f800000u};
     }
-    static Mask both(Mask a, Mask b) { return {a.lanes & b.lanes}; }
+    PLIANT_SMALL static Mask both(Mask a, Mask b) { return {a.lanes & b.lanes}; }
     static bool any_lane(Mask m)
     {
 #if defined(__AVX512F__)

@@ -7,6 +7,8 @@
 #define PLIANT_FUNCTIONS_APART 0
 #endif
 
+/// Of what is a few instructions: in one piece with its caller in either case.
+#define PLIANT_SMALL __attribute__((always_inline))
 #if PLIANT_FUNCTIONS_APART
 #define PLIANT_INLINE inline
 #define PLIANT_IN_ONE_PIECE
