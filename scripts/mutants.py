@@ -286,7 +286,7 @@ class Run:
         self.options, self.mutants = options, mutants
         self.texts = with_branches(mutants)
         WORK.mkdir(parents=True, exist_ok=True)
-        copy_tree(self.texts, tests_of(mutants))
+        copy_tree(self.texts, tests_of(chosen))
         is_new = not (BUILD / "build.ninja").is_file()
         result = run(["cmake", "-S", str(SOURCE), "-B", str(BUILD), *(OPTIONS if is_new else [])])
         if result.returncode:

@@ -192,6 +192,22 @@ TEST_P(AcadRows, ArePartedAmongThreadsWithoutAChange)
     }
 }
 
+TEST_P(AcadRows, AreThoseNearTheThresholdToo)
+{
+    // Once a spring is beyond it: those that the step may take there, from 8 % on.
+    std::vector<Vec3> start = pulled_apart(model, 20);
+    const std::vector<Vec3> less = pulled_apart(model, 40, 0.09f);
+    for (std::uint32_t i = 0; i < start.size(); ++i) {
+        const Vec3 a = start[i], b = less[i], c = model.positions[i];
+        start[i] = {a.x + (b.x - c.x), a.y + (b.y - c.y), a.z + (b.z - c.z)};
+    }
+    for (const Backend backend : test::backends()) {
+        const auto runner = test::make_runner(backend, model);
+        step_from(*runner, model, start);
+        EXPECT_EQ(live_rows(*runner, model), expected_rows(model, start)) << name_of(backend);
+    }
+}
+
 TEST_P(AcadRows, AreThoseAtASpringThatAPinHolds)
 {
     // Row 0 is pinned, and no spring is marked but those that lead to it.
@@ -204,7 +220,7 @@ TEST_P(AcadRows, AreThoseAtASpringThatAPinHolds)
     else
         for (std::uint32_t vertex = columns; vertex < 2 * columns; ++vertex)
             expected.insert(held.node(vertex) / sum_columns);
-    for (const Backend backend : {Backend::reference, Backend::cpu, Backend::vulkan}) {
+    for (const Backend backend : test::backends()) {
         const auto runner = test::make_runner(backend, held);
         EXPECT_GE(step_from(*runner, held, start).active, columns) << name_of(backend);
         const std::set<std::size_t> live = live_rows(*runner, held);
@@ -220,7 +236,7 @@ TEST_P(AcadRows, HoldOnToTheirSpringsDownToTheSecondThreshold)
     scene.acad.deactivate_at = 0.02;
     const ClothModel held(scene.cloth(0), scene);
     const std::vector<Vec3> first = pulled_apart(held, 20), second = pulled_apart(held, 20, 0.06f);
-    for (const Backend backend : {Backend::reference, Backend::cpu, Backend::vulkan}) {
+    for (const Backend backend : test::backends()) {
         const auto used = test::make_runner(backend, held), fresh = test::make_runner(backend, held);
         EXPECT_GE(step_from(*used, held, first).active, columns) << name_of(backend);
         EXPECT_GE(step_from(*used, held, second).active, columns) << name_of(backend);

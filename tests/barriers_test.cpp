@@ -82,5 +82,27 @@ INSTANTIATE_TEST_SUITE_P(Methods, Barriers,
                                     (param.param.second ? "_body" : "");
                          });
 
+TEST(BarrierPlan, PartsWhatFramesDoNotHave)
+{
+    // In a frame two steps always meet in more than one place.
+    using Calls = std::vector<Call>;
+    const auto last_needs_one = [](const Calls& calls) {
+        vulkan::BarrierPlan plan;
+        bool needed = false;
+        for (const Call& call : calls) needed = plan.needed_before(call);
+        return needed;
+    };
+    const Call draws_0{Pass::sheet_normal, 0, 0}, draws_1{Pass::sheet_normal, 0, 1};
+    const Call pins_0{Pass::attach, 0, 0}, pins_1{Pass::attach, 0, 1};
+    EXPECT_TRUE(last_needs_one({draws_0, pins_1}));   // writes what was read
+    EXPECT_FALSE(last_needs_one({draws_1, pins_1}));  // the other copy
+    EXPECT_TRUE(last_needs_one({pins_0, draws_1}));   // reads what was written, by another role
+    EXPECT_TRUE(last_needs_one({pins_1, draws_0}));
+    EXPECT_FALSE(last_needs_one({pins_0, draws_0}));
+    EXPECT_TRUE(last_needs_one({draws_0, draws_1}));  // both write normals
+    EXPECT_FALSE(last_needs_one({draws_0, {Pass::sheet_strain, 0, 0}}));
+    EXPECT_FALSE(last_needs_one({draws_0, {Pass::sheet_normal, 1, 0}}));  // another cloth
+}
+
 }  // namespace
 }  // namespace pliant

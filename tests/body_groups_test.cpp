@@ -37,6 +37,7 @@ void expect_as_alone(const Scene& together, double tolerance)
         for (std::size_t c = 0; c < together.cloth_count(); ++c) {
             Scene alone = weightless({together.cloth(c)});
             alone.time = together.time;
+            alone.colliders = together.colliders;
             Simulation one(alone, test::on(backend));
             for (int k = 0; k < 10; ++k) one.advance(1 / 60.0);
             ASSERT_TRUE(all.report().finite && one.report().finite);
@@ -67,6 +68,17 @@ TEST(BodyGroups, EachHasItsOwnMaterial)
         body->body->forces = {{{{-9, 0.2, -9}, {9, 9, 9}}, {0, 20, 0}, {}}};
     Scene together = weightless({soft, stiff});
     together.time.substeps = 40;
+    expect_as_alone(together, 2e-5);
+}
+
+TEST(BodyGroups, EachMeetsTheCollidersWhereTheyAre)
+{
+    // Of two materials, and so two models with an origin each; the sphere is under the first alone.
+    Cloth first = ball_at({0, 0, 0}), second = ball_at({4, 0, 0});
+    second.springs.structural.stiffness = 400;
+    first.velocity = second.velocity = {0, -1, 0};
+    Scene together = weightless({first, second});
+    together.add(Sphere{.centre = {0, -0.65, 0}, .radius = 0.2});
     expect_as_alone(together, 2e-5);
 }
 

@@ -58,6 +58,23 @@ TEST(Gap, BoxFaceEdgeCornerAndInside)
     EXPECT_NEAR(inside.x, -1, 1e-14);
 }
 
+TEST(Gap, TheWayOutOfABoxLeadsThroughItsNearestFace)
+{
+    const auto c = box({0, 0, 0}, {1, 2, 3});
+    const struct {
+        VD at, normal;
+    } cases[] = {{{0.9, 0.3, 0.2}, {1, 0, 0}}, {{-0.9, 0.3, 0.2}, {-1, 0, 0}},
+                 {{0.1, 1.9, 0.2}, {0, 1, 0}}, {{0.1, -1.9, 0.2}, {0, -1, 0}},
+                 {{0.1, 0.3, 2.9}, {0, 0, 1}}, {{0.1, 0.3, -2.9}, {0, 0, -1}}};
+    for (const auto& way : cases) {
+        const auto gap = D::collider_gap(c, way.at);
+        EXPECT_NEAR(gap.w, -0.1, 1e-14);
+        EXPECT_EQ(gap.x, way.normal.x);
+        EXPECT_EQ(gap.y, way.normal.y);
+        EXPECT_EQ(gap.z, way.normal.z);
+    }
+}
+
 TEST(Gap, RotatedBox)
 {
     auto c = box({0, 0, 0}, {1, 2, 3});

@@ -169,6 +169,14 @@ TEST(Integration, VelocityFirst)
     EXPECT_EQ(D::position_step({0, 1, 0}, v, 0.25).y, 1 + 3 * 0.25);
 }
 
+TEST(Integration, WhatIsSlowerThanTwoMillimetresInABillionYearsRests)
+{
+    EXPECT_EQ(F::settled(5e-20f), 0.0f);
+    EXPECT_EQ(F::settled(-5e-20f), 0.0f);
+    EXPECT_EQ(F::settled(6e-20f), 6e-20f);
+    EXPECT_EQ(F::velocity_step({3e-20f, 1, 0}, {0, 0, 0}, 1, {0, 0, 0}, 1, 0.5f).x, 0.0f);
+}
+
 TEST(Integration, PinnedNodeStays)
 {
     const VD v = D::velocity_step({1, 2, 3}, {0, 3, 0}, 0.0, {0, -10, 0}, 1.0, 0.25);
@@ -232,6 +240,18 @@ TEST(Measure, CountsWhatIsNotFinite)
     EXPECT_EQ(F::measure_node(F::measure_of_nothing(), good, good, 1, gravity).non_finite, 0);
     EXPECT_EQ(F::measure_node(F::measure_of_nothing(), {1, nan, 3}, good, 1, gravity).non_finite, 1);
     EXPECT_EQ(F::measure_node(F::measure_of_nothing(), good, {inf, 0, 0}, 1, gravity).non_finite, 1);
+}
+
+TEST(Measure, OfTwoIsTheLargerOfEach)
+{
+    D::Measure a = D::measure_of_nothing(), b = a;
+    a.max_stretch = 0.1, a.max_penetration = 0.2, a.max_speed2 = 3;
+    b.max_stretch = 0.4, b.max_penetration = 0.5, b.max_speed2 = 6;
+    for (const auto& m : {D::measure_merge(a, b), D::measure_merge(b, a)}) {
+        EXPECT_EQ(m.max_stretch, 0.4);
+        EXPECT_EQ(m.max_penetration, 0.5);
+        EXPECT_EQ(m.max_speed2, 6);
+    }
 }
 
 TEST(Measure, NodeHasKineticEnergyAndHeight)

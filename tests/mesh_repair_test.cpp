@@ -168,6 +168,46 @@ TEST(MeshRepair, a_cavity_faces_inward_and_what_is_in_it_outward)
     EXPECT_EQ(describe(repair_mesh(overlapping)), "");
 }
 
+TEST(MeshRepair, a_hole_gets_the_triangles_of_least_area)
+{
+    // A tetrahedron of which two faces are there: the hole is a skew quadrilateral. One of its diagonals is
+    // the edge between those faces, and shorter than the other: yet it may not be taken.
+    const std::vector<Vec3> corners = {{0, 0, 0.3f}, {1, 0, 0}, {0, 0, -0.3f}, {-1, 0.5f, 0}};
+    SurfaceMesh half{corners, {{0, 1, 2}, {0, 2, 3}}};
+    EXPECT_EQ(repair_mesh(half, {.fill_holes = true}).open_loops, 0u);
+    EXPECT_EQ(half.triangles.size(), 4u);
+    EXPECT_TRUE(inspect_mesh(half).closed);
+
+    // A box without its lid, of which one corner is raised: the lid has less area across that corner.
+    for (const std::size_t raised : {4u, 5u, 6u, 7u}) {
+        SurfaceMesh box{
+            {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}, {0, 1, 0}, {1, 1, 0}, {1, 1, 1}, {0, 1, 1}},
+            {{0, 1, 2},
+             {0, 2, 3},
+             {0, 4, 5},
+             {0, 5, 1},
+             {1, 5, 6},
+             {1, 6, 2},
+             {2, 6, 7},
+             {2, 7, 3},
+             {3, 7, 4},
+             {3, 4, 0}}};
+        box.vertices[raised].y = 1.6f;
+        EXPECT_EQ(repair_mesh(box, {.fill_holes = true}).open_loops, 0u);
+        const auto area_of = [&](std::size_t a, std::size_t b, std::size_t c) {
+            const Vec3d x = to_double(box.vertices[a]);
+            const Vec3d n = cross(to_double(box.vertices[b]) - x, to_double(box.vertices[c]) - x);
+            return std::sqrt(dot(n, n)) / 2;
+        };
+        double lid = 0;
+        for (const Triangle& t : box.triangles)
+            if (t[0] > 3 && t[1] > 3 && t[2] > 3) lid += area_of(t[0], t[1], t[2]);
+        EXPECT_NEAR(lid, std::min(area_of(4, 5, 6) + area_of(4, 6, 7), area_of(4, 5, 7) + area_of(5, 6, 7)),
+                    1e-6)
+            << raised;
+    }
+}
+
 TEST(MeshRepair, a_cut_sphere_is_closed)
 {
     for (const std::size_t removed : {1u, 2u, 5u, 40u}) {

@@ -268,6 +268,12 @@ TEST(Scene, WrongOverridesAreExplained)
         EXPECT_EQ(error.kind, ErrorKind::bad_input) << error.what();
         expect_sentence(error.what(), refusal.parts);
     }
+    // An override is not to blame for a field whose name begins as its own.
+    const TemporaryFile faulty(
+        R"({"pliant": 1, "cloths": [{"sheet": {}, "formulation": "node_centric", "springs": {"bend_model": "quadratic"}}]})");
+    const Error error =
+        error_of([&] { read_scene(faulty.path.string(), {R"(cloths[0].springs.bend={"stiffness":1})"}); });
+    expect_sentence(error.what(), {faulty.path.string() + ": cloths[0].springs.bend_model is quadratic"});
     // A fault of a built-in scene itself, here with a part of it taken away, names its file.
     expect_sentence(error_of([] { read_scene("hanging", {"cloths[0].sheet=null"}); }).what(),
                     {"cloths[0] has none of"});

@@ -17,6 +17,21 @@ TEST(Volume, GradientOfAnOctahedronIsAThirdOfTheAreaVectorsAroundANode)
     EXPECT_NEAR(gradient.z, 0, 1e-12);
 }
 
+TEST(Volume, ANodeOnOnePlateIsFreeToSlideAndBetweenTwoItIsNot)
+{
+    const VD a{1, 2, 3};
+    D::Blocked held = D::blocked_by_nothing();
+    EXPECT_EQ(D::free_part(a, held).y, 2);
+    held.normal = {0, 1, 0};
+    held.count = 1;
+    EXPECT_EQ(D::free_part(a, held).x, 1);
+    EXPECT_EQ(D::free_part(a, held).y, 0);
+    EXPECT_EQ(D::free_part(a, held).z, 3);
+    held.count = 2;
+    EXPECT_EQ(D::free_part(a, held).x, 0);
+    EXPECT_EQ(D::free_part(a, held).z, 0);
+}
+
 TEST(Volume, CubicOfAFanIsTheVolumeOfTheMovedFan)
 {
     RandomVectors random;
