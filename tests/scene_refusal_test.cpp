@@ -270,7 +270,7 @@ TEST(Scene, WrongOverridesAreExplained)
     }
     // An override is not to blame for a field whose name begins as its own.
     const TemporaryFile faulty(
-        R"({"pliant": 1, "cloths": [{"sheet": {}, "formulation": "node_centric", "springs": {"bend_model": "quadratic"}}]})");
+        R"({"pliant": 1, "cloths": [{"sheet": {"rows": 3, "columns": 3, "width": 1, "height": 1}, "formulation": "node_centric", "springs": {"bend_model": "quadratic"}}]})");
     const Error error =
         error_of([&] { read_scene(faulty.path.string(), {R"(cloths[0].springs.bend={"stiffness":1})"}); });
     expect_sentence(error.what(), {faulty.path.string() + ": cloths[0].springs.bend_model is quadratic"});
