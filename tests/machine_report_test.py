@@ -1,7 +1,6 @@
 """pliant info --report: what it writes fits its schema, and its hashes are those of runs.
 
     machine_report_test.py PLIANT"""
-import copy
 import json
 import os
 import subprocess
@@ -10,6 +9,8 @@ import tempfile
 from pathlib import Path
 
 import jsonschema
+
+from command_line_tools import changed
 
 ROOT = Path(__file__).resolve().parent.parent
 SCHEMA = json.loads((ROOT / "docs/machine_report.schema.json").read_text())
@@ -22,20 +23,6 @@ def call(*arguments):
 
 def fits(report):
     return not list(jsonschema.Draft202012Validator(SCHEMA).iter_errors(report))
-
-
-def changed(report, path, value):
-    """`value` in place of what is at `path`; None takes it away."""
-    result = copy.deepcopy(report)
-    *way, last = path
-    at = result
-    for step in way:
-        at = at[step]
-    if value is None:
-        del at[last]
-    else:
-        at[last] = value
-    return result
 
 
 def main():
@@ -71,21 +58,21 @@ def main():
 
         # The schema refuses what is wrong.
         device = next(i for i, place in enumerate(report["places"]) if place["backend"] == "vulkan")
-        for path, value in [(["pliant"], None), (["machine_report"], 2), (["machine", "user"], "me"),
-                            (["places"], []), (["places", device, "limits"], {}),
-                            (["places", device, "promise"], None), (["places", device, "runs"], []),
-                            (["places", device, "surprise"], 1), (["places", 0, "runs", 0, "state_hash"], None),
-                            (["places", 0, "runs", 0, "state_hash"], "xyz"),
-                            (["places", 0, "runs", 0, "error"], "both"),
-                            (["places", 0, "runs", 0, "frames"], 0), (["refused"], [{"name": "no reason"}])]:
+        for path, value in [("pliant", None), ("machine_report", 2), ("machine.user", "me"),
+                            ("places", []), (f"places.{device}.limits", {}),
+                            (f"places.{device}.promise", None), (f"places.{device}.runs", []),
+                            (f"places.{device}.surprise", 1), ("places.0.runs.0.state_hash", None),
+                            ("places.0.runs.0.state_hash", "xyz"),
+                            ("places.0.runs.0.error", "both"),
+                            ("places.0.runs.0.frames", 0), ("refused", [{"name": "no reason"}])]:
             assert not fits(changed(report, path, value)), path
 
         # A device that fails a scene, and one that is refused, fit.
-        failed = changed(report, ["places", device, "runs", 2], {"scene": "tablecloth", "frames": 1, "error": "lost"})
+        failed = changed(report, f"places.{device}.runs.2", {"scene": "tablecloth", "frames": 1, "error": "lost"})
         assert fits(failed)
         refused = {**{k: v for k, v in report["places"][device].items() if k not in ("index", "runs")},
                    "refusal": "it has Vulkan 1.0, and 1.1 is needed"}
-        assert fits(changed(report, ["refused"], [refused]))
+        assert fits(changed(report, "refused", [refused]))
 
         # A file that cannot be written is told before the work, not after.
         outcome = call("info", "--report", os.path.join(folder, "no", "such", "folder.json"))

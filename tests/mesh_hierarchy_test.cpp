@@ -12,6 +12,7 @@
 #include "body/collider_motion.hpp"
 #include "kernels/planes.hpp"
 #include "test_cloths.hpp"
+#include "test_cycles.hpp"
 #include "test_differences.hpp"
 
 namespace pliant {
@@ -202,20 +203,10 @@ TEST(MeshHierarchy, CyclesDoNotGrowWithTheMesh)
 {
     for (const std::uint32_t n : {25u, 50u, 100u})
         for (const double compliance : {1e-7, 1e-6, 1e-4}) {
-            Scene scene = hanging(irregular_square(n), compliance);
-            auto& newton = scene.newton_multigrid;
-            newton.resists = Resists::both;
-            newton.newton_iterations = 1;
-            newton.linear_iterations = 100;
-            newton.linear_tolerance = 1e-3;
-            Simulation simulation(scene, test::on(Backend::cpu));
             // One Newton iteration leaves wrinkles, which make the later systems harder.
-            for (int k = 0; k < 3; ++k) {
-                simulation.advance(frame);
-                EXPECT_GE(simulation.report().solver.iterations_last, 1u);
-                EXPECT_LE(simulation.report().solver.iterations_last, k < 2 ? 25u : 40u)
-                    << n << " x " << n << " nodes, compliance " << compliance << ", frame " << k;
-            }
+            test::expect_few_cycles(
+                hanging(irregular_square(n), compliance), {25, 25, 40},
+                (testing::Message() << n << " x " << n << " nodes, compliance " << compliance).GetString());
         }
 }
 

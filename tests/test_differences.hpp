@@ -15,28 +15,20 @@
 
 namespace pliant::test {
 
-/// The largest of the numbers that it was given. Not a number when one of them is not, or when there was
-/// none: then no bound holds, on whichever side it is.
-class Largest {
+/// The extreme of the numbers that it was given, by `larger` or `smaller`. Not a number when one of them is
+/// not, or when there was none: then no bound holds, on whichever side it is.
+template <double (*more_extreme)(double, double)>
+class Extreme {
 public:
-    void add(double a) { value_ = empty_ ? a : larger(value_, a), empty_ = false; }
+    void add(double a) { value_ = empty_ ? a : more_extreme(value_, a), empty_ = false; }
     double value() const { return value_; }
 
 private:
     double value_ = std::numeric_limits<double>::quiet_NaN();
     bool empty_ = true;
 };
-
-/// The same of the smallest.
-class Smallest {
-public:
-    void add(double a) { value_ = empty_ ? a : smaller(value_, a), empty_ = false; }
-    double value() const { return value_; }
-
-private:
-    double value_ = std::numeric_limits<double>::quiet_NaN();
-    bool empty_ = true;
-};
+using Largest = Extreme<larger>;
+using Smallest = Extreme<smaller>;
 
 inline double distance(Vec3d a, Vec3d b) { return std::sqrt(dot(a - b, a - b)); }
 inline double distance(Vec3 a, Vec3 b) { return distance(to_double(a), to_double(b)); }

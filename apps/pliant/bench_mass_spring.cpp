@@ -9,7 +9,7 @@
 namespace pliant::tool {
 namespace {
 
-constexpr double structural_stiffness = 1000;  // N/m, structural
+constexpr double structural_stiffness = 1000;  // N/m
 constexpr std::uint64_t largest = 7'817'616;
 constexpr std::uint64_t most_for_bullet = 300'000;  // nodes; beyond them a turn takes seconds
 

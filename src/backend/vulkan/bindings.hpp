@@ -63,7 +63,7 @@ enum class Family : std::uint32_t {
 constexpr std::uint32_t family_count = 8;
 
 /// What the layout of a family binds, in ascending order. Every shader of the family finds there what it uses
-/// (tests/shader_needs_test.cpp).
+/// (tests/device_limits_test.cpp).
 std::span<const Binding> bindings_of(Family family);
 Family family_of(Pass pass);
 
