@@ -1,6 +1,4 @@
 // What `pliant info` lists.
-#include <vulkan/vulkan_core.h>
-
 #include "backend/cpu/kernels.hpp"
 #include "backend/vulkan/device_info.hpp"
 #include "pliant/simulation.hpp"
@@ -13,8 +11,7 @@ std::vector<DeviceListing> list_devices()
     const auto mebibytes = [](std::uint64_t bytes) { return std::to_string(bytes >> 20) + " MiB"; };
     for (const auto& device : vulkan::list_physical_devices())
         devices.push_back({Backend::vulkan, device.index, device.name, device.kind,
-                           "Vulkan " + std::to_string(VK_API_VERSION_MAJOR(device.api_version)) + "." +
-                               std::to_string(VK_API_VERSION_MINOR(device.api_version)) + ", memory " +
+                           "Vulkan " + vulkan::version_text(device.api_version) + ", memory " +
                                mebibytes(device.memory) + ", largest buffer " +
                                mebibytes(device.max_buffer_range) + ", shared memory " +
                                std::to_string(device.max_shared_memory >> 10) + " KiB; " + device.promise()});

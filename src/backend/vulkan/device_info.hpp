@@ -11,6 +11,9 @@ namespace pliant::vulkan {
 
 constexpr const char* equal_bits = "equal bits on all machines";
 
+/// A version of Vulkan as people write it: 1.1.
+std::string version_text(std::uint32_t version);
+
 /// What `pliant info` shows of a physical device.
 struct PhysicalDeviceInfo {
     int index = -1;  ///< among those that can be used

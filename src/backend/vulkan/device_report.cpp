@@ -22,8 +22,7 @@ DeviceReport report_of(const Candidate& candidate)
     const vk::PhysicalDeviceLimits& limits = properties.limits;
     DeviceReport report;
     report.info = candidate.info;
-    report.version = std::to_string(VK_API_VERSION_MAJOR(properties.apiVersion)) + "." +
-                     std::to_string(VK_API_VERSION_MINOR(properties.apiVersion)) + "." +
+    report.version = version_text(properties.apiVersion) + "." +
                      std::to_string(VK_API_VERSION_PATCH(properties.apiVersion));
     report.driver = driver_of(candidate.physical, properties.apiVersion);
     report.driver_version = properties.driverVersion;

@@ -20,12 +20,6 @@ std::string kind_name(vk::PhysicalDeviceType type)
     }
 }
 
-std::string version_text(std::uint32_t version)
-{
-    return std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
-           std::to_string(VK_API_VERSION_MINOR(version));
-}
-
 std::string refusal_of(const vk::raii::PhysicalDevice& physical)
 {
     const auto properties = physical.getProperties();
@@ -59,6 +53,12 @@ std::vector<PhysicalDeviceInfo> listed(bool refused) noexcept
 }
 
 }  // namespace
+
+std::string version_text(std::uint32_t version)
+{
+    return std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
+           std::to_string(VK_API_VERSION_MINOR(version));
+}
 
 std::string PhysicalDeviceInfo::promise() const
 {
