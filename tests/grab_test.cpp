@@ -213,6 +213,25 @@ TEST(State, OfBodiesIsInTheOrderOfTheMesh)
     EXPECT_LE(test::largest_difference(one.positions(), other.positions()), 1.2e-7);
 }
 
+TEST(State, LeavesAPinWhereItStands)
+{
+    // Springs of a pin would feel its velocity.
+    Scene scene = free_sheet(Method::mass_spring);
+    scene.cloth_handle(0)->pin(Corner::top_left);
+    Simulation simulation(scene, on(Backend::cpu));
+    const State start = simulation.state();
+    State moving = start;
+    for (Vec3& v : moving.cloths[0].velocities) v = {1, 2, 3};
+    simulation.set_state(moving);
+    std::size_t pins = 0;
+    for (std::size_t i = 0; i < start.cloths[0].positions.size(); ++i)
+        if (simulation.velocities()[i] == Vec3{})
+            ++pins;
+        else
+            EXPECT_EQ(simulation.velocities()[i], (Vec3{1, 2, 3})) << i;
+    EXPECT_EQ(pins, 1u);
+}
+
 TEST(State, TakesADivergedRunUpAgain)
 {
     Scene scene = free_sheet(Method::mass_spring);

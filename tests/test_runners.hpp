@@ -66,11 +66,13 @@ inline std::vector<CpuWay> every_cpu_way()
         for (const unsigned threads : {1U, 2U, 3U, 7U}) ways.push_back({name, threads});
     return ways;
 }
+/// As in `./dev test --all`.
+inline bool wants_every_way() { return std::getenv("PLIANT_EVERY_WAY") != nullptr; }
 /// Every width and every number of threads, but only the machine's widest set with each of them: packs for
-/// tests alone are slow. With PLIANT_EVERY_WAY=1, as in `./dev test --all`, each with each.
+/// tests alone are slow. With PLIANT_EVERY_WAY=1 each with each.
 inline std::vector<CpuWay> cpu_ways()
 {
-    if (std::getenv("PLIANT_EVERY_WAY")) return every_cpu_way();
+    if (wants_every_way()) return every_cpu_way();
     const std::string widest = cpu::available_kernels().back()->name;
     std::vector<CpuWay> ways;
     for (const CpuWay& way : every_cpu_way())
