@@ -57,8 +57,19 @@ TEST(RequireClosed, refuses_everything_else_that_has_no_volume)
               std::string::npos);
     SurfaceMesh mesh = tetrahedron();
     turn_round(mesh);
-    EXPECT_NE(refusal_of(mesh).find("1 component is inside out (volume -0.166667 m^3); mend it by"),
-              std::string::npos);
+    EXPECT_NE(
+        refusal_of(mesh).find("1 component is inside out (volume of the mesh -0.166667 m^3); mend it by"),
+        std::string::npos);
+    // Beside a larger one that is not, so that the volume of all is not negative.
+    SurfaceMesh two = box_mesh({{2, 2, 2}, 2});
+    for (const Triangle& t : mesh.triangles) {
+        const auto first = static_cast<std::uint32_t>(two.vertices.size());
+        two.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    }
+    for (const Vec3& x : mesh.vertices) two.vertices.push_back({x.x + 5, x.y, x.z});
+    EXPECT_NE(refusal_of(two).find("1 component is inside out (volume of the mesh 7.83333 m^3); mend it by"),
+              std::string::npos)
+        << refusal_of(two);
     std::swap(mesh.triangles[2][0], mesh.triangles[2][1]);
     EXPECT_NE(
         refusal_of(mesh).find("do not agree on the side that is outside, first at an edge of vertex 1 at"),

@@ -119,7 +119,7 @@ const FastCase cases[] = {{"sheet_31x33", [] { return test::flat_sheet(31, 33); 
                           {"body", body}};
 
 /// On one device pipelines of both kinds are there at once.
-class FastMath : public test::OnOneDevice<FastCase> {};
+class FastMath : public testing::TestWithParam<FastCase> {};
 
 TEST_P(FastMath, IsTheStepToRoundingAndLeavesThePlainOneAsItIs)
 {
@@ -130,7 +130,6 @@ TEST_P(FastMath, IsTheStepToRoundingAndLeavesThePlainOneAsItIs)
     const State plain = state_after_a_step(model, {});
 
     SimulationOptions vulkan = test::on(Backend::vulkan);
-    vulkan.shared_device = device;
     vulkan.fast_math = true;
     expect_near(model, plain, state_after_a_step(model, vulkan), "vulkan");
     vulkan.fast_math = false;

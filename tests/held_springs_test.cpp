@@ -105,6 +105,30 @@ TEST(HeldSprings, AreTheSameOnAllBackends)
     }
 }
 
+TEST(HeldSprings, AreNoneInAStepThatHasNothingToSolve)
+{
+    Scene scene = hanging_strip(Method::acad, Solver::newton_multigrid);
+    scene.acad.target = AcadTarget::rest;
+    scene.gravity = {};
+    scene.time.substeps = 1;
+    for (const Backend backend : {Backend::reference, Backend::cpu}) {
+        Simulation simulation(scene, test::on(backend));
+        const State start = simulation.state();
+        const auto held_of = [&](float stretch) {
+            State state = start;
+            for (Vec3& x : state.cloths[0].positions) x.y *= 1 + stretch;
+            simulation.set_state(state);
+            simulation.advance(1e-4);
+            const auto held = simulation.held_springs();
+            return std::accumulate(held.begin(), held.end(), 0u);
+        };
+        EXPECT_GT(held_of(0.05f), 0u) << name_of(backend);
+        EXPECT_GT(simulation.report().solver.active_last, 0u);
+        EXPECT_EQ(held_of(0.01f), 0u) << name_of(backend);
+        EXPECT_EQ(simulation.report().solver.active_last, 0u);
+    }
+}
+
 TEST(HeldSprings, AreNoneWithoutConstraints)
 {
     std::uint64_t active = 0;

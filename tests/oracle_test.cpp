@@ -233,7 +233,7 @@ void expect_near(const Machine& machine, const Matrix& found, const Matrix& expe
         }
 }
 
-class StepOracle : public test::OnOneDevice<std::tuple<OracleCase, Backend>> {
+class StepOracle : public testing::TestWithParam<std::tuple<OracleCase, Backend>> {
 protected:
     static OracleCase the_case() { return std::get<0>(GetParam()); }
     /// On the backend of this test: the CPU's with each instruction set.
@@ -242,7 +242,6 @@ protected:
         std::vector<Machine> machines;
         SimulationOptions options = test::on(std::get<1>(GetParam()));
         options.threads = 2;
-        options.shared_device = device;
         if (options.backend == Backend::reference)
             machines.push_back({"reference", make_reference_runner({&model, 1}), true, true});
         if (options.backend == Backend::vulkan)

@@ -206,6 +206,23 @@ TEST(PaperSystem, AMovingPinEntersByItsVelocity)
     EXPECT_NEAR(bench.cloth.velocity[1].y[pin], 2, 1e-10);
 }
 
+TEST(PaperSystem, KnowsAPinWhereTheStepTakesIt)
+{
+    Cloth cloth = separate_springs(1, 0.5);
+    cloth.pin(Attachment(std::uint32_t{0}, {{.time = 0}, {.time = 1, .position = {0, 2, 0}}}));
+    Scene scene = scene_of(cloth);
+    scene.gravity = {};
+    scene.time.substeps = 1;
+    for (const Backend backend : {Backend::reference, Backend::cpu}) {
+        Simulation simulation(scene, test::on(backend));
+        for (int frame = 1; frame <= 3; ++frame) {
+            simulation.advance(1 / 60.0);
+            EXPECT_NEAR(simulation.positions()[0].y, frame / 30.0, 1e-6) << name_of(backend) << ", " << frame;
+            EXPECT_NEAR(simulation.positions()[1].y, frame / 30.0 - 0.5, 1e-6);
+        }
+    }
+}
+
 // --- conjugate gradients
 
 /// A sheet of 20 x 20 rolled into a quarter of a cylinder; the chords are a little shorter than the springs,

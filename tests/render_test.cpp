@@ -13,6 +13,7 @@
 #include "pliant/scene.hpp"
 #include "render/renderer.hpp"
 #include "render/scene_drawing.hpp"
+#include "test_cloths.hpp"
 #include "test_errors.hpp"
 
 namespace pliant {
@@ -89,9 +90,7 @@ protected:
     void SetUp() override
     {
         if (vulkan::list_physical_devices().empty()) GTEST_SKIP() << "there is no Vulkan device";
-        static const auto shared =
-            std::make_shared<vulkan::Device>(vulkan::DeviceOptions{.validation = true});
-        device = shared;
+        device = test::shared_device();
         if (!device->can_draw()) GTEST_SKIP() << "the device cannot draw";
     }
     void TearDown() override
@@ -135,6 +134,34 @@ TEST_F(Picture, shows_the_cloth_where_its_nodes_are)
         for (std::size_t i = 0; i < with.rgba.size(); i += 4) same += with.rgba[i] == without.rgba[i];
         EXPECT_GT(same, with.rgba.size() / 4 / 2);
     }
+}
+
+TEST_F(Picture, has_up_above_and_right_at_the_right)
+{
+    // Without the matrix that all other tests find their pixels by.
+    const Sheet sheet = make_sheet(9, 9, 0.5);
+    const auto differences = [&](Vec3d moved) {
+        Scene scene = scene_for(sheet, 0.5);
+        scene.camera.position = {0, 0.5, 3};
+        scene.camera.target = {0, 0.5, 0};
+        Sheet there = sheet;
+        for (Vec3& x : there.positions)
+            x = to_float(Vec3d{0.3 * x.x, 0.5 + 0.3 * x.z, 0} + moved);  // stands, and faces the camera
+        const Image with = draw(scene, there), without = draw_without_cloth(scene, there);
+        std::array<std::size_t, 4> changed{};  // in the upper, lower, left and right half
+        for (std::size_t i = 0; i < with.rgba.size() / 4; ++i) {
+            const std::size_t x = i % 320, y = i / 320;
+            const bool is_other = with.rgba[4 * i] != without.rgba[4 * i];
+            changed[y < 90 ? 0 : 1] += is_other;
+            changed[x < 160 ? 2 : 3] += is_other;
+        }
+        return changed;
+    };
+    const auto above = differences({0, 0.5, 0}), right = differences({0.8, 0, 0});
+    EXPECT_GT(above[0], 200u);
+    EXPECT_GT(above[0], 2 * above[1]);  // its shadow
+    EXPECT_GT(right[3], 200u);
+    EXPECT_GT(right[3], 2 * right[2]);
 }
 
 TEST_F(Picture, is_the_same_from_host_and_device_and_every_time)
@@ -378,7 +405,7 @@ TEST_F(Picture, shows_strain_as_colour)
         for (std::uint32_t node = 0; node + 1 < 81; ++node)
             if (node % 9 < 8)
                 springs.push_back({node, node + 1, SpringKind::structural, 0.125f / (1 + strain)});
-        springs.push_back({0, 80, SpringKind::bend, 0.001f});  // does not count
+        springs.push_back({38, 40, SpringKind::bend, 0.001f});  // does not count
         renderer.set_springs(0, springs);
         return pixel_at(renderer.draw(0, frames), scene.camera, sheet.node(4, 4) + Vec3d{0.03, 0, 0.03});
     };

@@ -180,6 +180,19 @@ TEST(Scene, ReadsADisc)
     EXPECT_EQ(built.density, 0.2);
 }
 
+TEST(Scene, WhatIsGivenBesideAMaterialGoesBeforeIt)
+{
+    const Scene scene = scene_of(R"({"pliant": 1, "cloths": [
+        {"sheet": {"rows": 3, "columns": 3}, "material": "denim"},
+        {"sheet": {"rows": 3, "columns": 3}, "density": 0.123, "material": "denim", "springs": {"bending_stiffness": 1e-5}}]})");
+    const Cloth denim = Cloth::sheet({}).make_of(Material::denim);
+    EXPECT_EQ(scene.cloth(0).density, denim.density);
+    EXPECT_NE(denim.density, 0.123);
+    EXPECT_EQ(scene.cloth(1).density, 0.123);
+    EXPECT_EQ(scene.cloth(1).springs.bending_stiffness, 1e-5);
+    EXPECT_EQ(scene.cloth(1).springs.structural.stiffness, denim.springs.structural.stiffness);
+}
+
 TEST(Scene, OverridesChangeTheDocumentBeforeItIsRead)
 {
     const Scene scene =

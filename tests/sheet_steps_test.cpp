@@ -60,7 +60,7 @@ struct Size {
     std::uint32_t rows, columns;
 };
 
-class SheetSteps : public test::OnOneDevice<Size> {};
+class SheetSteps : public testing::TestWithParam<Size> {};
 
 TEST_P(SheetSteps, AreTheSameInOnePassOverTheRows)
 {
@@ -76,7 +76,6 @@ TEST_P(SheetSteps, AreTheSameInOnePassOverTheRows)
     if (!test::has_vulkan || GetParam().rows == 600) return;  // for the gaps of the CPU's parts
     // 19 steps are shared out as pairs of 2 or 4, as 3, and what is left.
     SimulationOptions vulkan = test::on(Backend::vulkan);
-    vulkan.shared_device = device;
     for (vulkan.gpu_substeps = 2; vulkan.gpu_substeps <= vulkan::most_sheet_steps; ++vulkan.gpu_substeps)
         test::expect_same_bits(expected, state_after(model, vulkan, frame_steps),
                                std::to_string(vulkan.gpu_substeps) + " steps in a dispatch");

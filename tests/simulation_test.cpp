@@ -298,6 +298,7 @@ TEST(Simulation, RefusesWhatCannotRun)
         message_of([&] { Simulation(small_scene(), options); }).find(cpu::available_kernels().front()->name),
         std::string::npos);
     options = test::on(Backend::vulkan);
+    options.shared_device = nullptr;
     options.device = 99;
     EXPECT_NE(message_of([&] { Simulation(small_scene(), options); }).find("device 99"), std::string::npos);
     EXPECT_NE(message_of([&] { Simulation(Scene{}, {}); }).find("cloth"), std::string::npos);

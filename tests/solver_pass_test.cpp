@@ -40,7 +40,7 @@ const SolverCase cases[] = {
     {.name = "sheet_4x150", .rows = 4, .columns = 150},
     {.name = "sheet_5x300", .rows = 5, .columns = 300},  // the CPU takes 256 columns at a time
     {.name = "sheet_4x1030", .rows = 4, .columns = 1030},
-    {.name = "sheet_stiff_bend", .rows = 9, .columns = 13, .smoothing = 3, .stiff_bend = true},
+    {.name = "sheet_stiff_bend", .rows = 9, .columns = 21, .smoothing = 3, .stiff_bend = true},
     {.name = "sheet_much_smoothing", .rows = 9, .columns = 13, .smoothing = 6},
     {.name = "sheet_jacobi", .rows = 9, .columns = 7, .preconditioner = Preconditioner::jacobi},
     {.name = "sheet_plain", .rows = 9, .columns = 7, .preconditioner = Preconditioner::none},

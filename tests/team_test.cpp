@@ -1,6 +1,8 @@
 // Threads that stay together for a frame: every part is done once, however many come to help.
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -68,6 +70,72 @@ TEST(Team, NeedsNobodyButItsLeader)
     cpu::Team team;
     OneAfterTheOther jobs;
     for (int frame = 0; frame < 3; ++frame) count_parts(team, jobs);
+}
+
+TEST(Team, WaitsForWhatAHelperHasBegun)
+{
+    struct Parts {
+        std::atomic<bool> begun{false}, done{false};
+    };
+    cpu::Team team;
+    Threads jobs(2);
+    for (int frame = 0; frame < 5; ++frame) {
+        Parts parts;
+        bool was_done = false;
+        team.gather(jobs, 2, [&] {
+            team.run(
+                2,
+                [](void* pointer, unsigned index) {
+                    auto& p = *static_cast<Parts*>(pointer);
+                    if (index == 0) {
+                        while (!p.begun) std::this_thread::yield();  // the leader does not take part 1 itself
+                    } else {
+                        p.begun = true;
+                        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+                        p.done = true;
+                    }
+                },
+                &parts);
+            was_done = parts.done;
+        });
+        EXPECT_TRUE(was_done);
+    }
+}
+
+TEST(Team, TakesNoPartThatSomebodyHas)
+{
+    // The helper comes while the leader is at part 1, which is the helper's own.
+    struct LateHelper final : JobSystem {
+        std::atomic<bool> may_come{false};
+        unsigned thread_count() const override { return 2; }
+        void run(unsigned, void (*task)(void*, unsigned), void* context) override
+        {
+            std::thread helper([&] {
+                while (!may_come) std::this_thread::yield();
+                task(context, 1);
+            });
+            task(context, 0);
+            helper.join();
+        }
+    } jobs;
+    struct Parts {
+        std::atomic<bool>& may_come;
+        std::atomic<int> times{0};
+    } parts{jobs.may_come};
+    cpu::Team team;
+    team.gather(jobs, 2, [&] {
+        team.run(
+            2,
+            [](void* pointer, unsigned index) {
+                auto& p = *static_cast<Parts*>(pointer);
+                if (index == 0) return;
+                ++p.times;
+                p.may_come = true;
+                std::this_thread::sleep_for(std::chrono::milliseconds(50));
+            },
+            &parts);
+    });
+    EXPECT_EQ(parts.times, 1);
 }
 
 TEST(Team, PassesOnWhatItsLeaderThrows)

@@ -61,11 +61,15 @@ inline SurfaceMesh irregular_mesh(std::uint32_t rows, std::uint32_t columns, uns
     return mesh;
 }
 
+/// One for all tests of a process, with the validation layer, so that pipelines are compiled once; none where
+/// there is no device. In validation_listener.cpp, which closes it behind the last test.
+std::shared_ptr<vulkan::Device> shared_device();
+
 inline SimulationOptions on(Backend backend)
 {
     SimulationOptions options;
     options.backend = backend;
-    options.validation = backend == Backend::vulkan;  // every test of Vulkan runs with the validation layer
+    if (backend == Backend::vulkan) options.shared_device = shared_device();
     return options;
 }
 

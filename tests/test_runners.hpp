@@ -80,18 +80,6 @@ inline std::vector<CpuWay> cpu_ways()
     return ways;
 }
 
-/// Tests with one device for all of a suite, so that pipelines are compiled once.
-template <class Parameter>
-class OnOneDevice : public testing::TestWithParam<Parameter> {
-protected:
-    static void SetUpTestSuite()
-    {
-        if (has_vulkan) device = std::make_shared<vulkan::Device>(vulkan::DeviceOptions{.validation = true});
-    }
-    static void TearDownTestSuite() { device.reset(); }
-    static inline std::shared_ptr<vulkan::Device> device;
-};
-
 /// A cloth whose nodes are shaken, so that springs are stretched and moving.
 inline ClothModel shaken_model(const Scene& scene)
 {

@@ -8,9 +8,22 @@
 #include <string>
 
 #include "backend/vulkan/device.hpp"
+#include "test_cloths.hpp"
 
 namespace pliant {
 namespace {
+
+std::shared_ptr<vulkan::Device> kept_device;
+
+class SharedDevice final : public testing::Environment {
+    void TearDown() override
+    {
+        const std::uint64_t before = vulkan::Device::all_validation_messages();
+        kept_device.reset();
+        EXPECT_EQ(vulkan::Device::all_validation_messages(), before)
+            << "messages of the Vulkan validation layer while the device was closed";
+    }
+};
 
 class ValidationListener final : public testing::EmptyTestEventListener {
     void OnTestStart(const testing::TestInfo&) override
@@ -39,10 +52,19 @@ class DeviceCheck final : public testing::Environment {
 };
 
 const bool listening = [] {
+    testing::AddGlobalTestEnvironment(new SharedDevice);                           // which takes ownership
     testing::AddGlobalTestEnvironment(new DeviceCheck);                            // which takes ownership
     testing::UnitTest::GetInstance()->listeners().Append(new ValidationListener);  // which takes ownership
     return true;
 }();
 
 }  // namespace
+
+std::shared_ptr<vulkan::Device> test::shared_device()
+{
+    if (!kept_device && !vulkan::list_physical_devices().empty())
+        kept_device = std::make_shared<vulkan::Device>(vulkan::DeviceOptions{.validation = true});
+    return kept_device;
+}
+
 }  // namespace pliant

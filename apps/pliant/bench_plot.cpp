@@ -147,10 +147,10 @@ private:
     }
     void axis(const Axis& axis, bool horizontal)
     {
-        for (double decade = std::pow(10, std::floor(std::log10(axis.low))); decade <= axis.high * 1.001;
-             decade *= 10)
+        const int last = static_cast<int>(std::floor(std::log10(axis.high * 1.001)));
+        for (int decade = static_cast<int>(std::floor(std::log10(axis.low))); decade <= last; ++decade)
             for (int digit = 1; digit < 10; ++digit) {
-                const double value = digit * decade;
+                const double value = digit * std::pow(10, decade);
                 if (value < axis.low * 0.999 || value > axis.high * 1.001) continue;
                 const double at = axis.at(value);
                 const char* style = digit == 1 ? "stroke=\"#bbb\"" : "stroke=\"#eee\"";

@@ -35,7 +35,8 @@ SurfaceMesh irregular_mesh(std::uint32_t n)
     std::uniform_real_distribution<float> jitter(-0.25f, 0.25f);
     std::vector<std::uint32_t> number(std::size_t{n} * n);
     for (std::uint32_t i = 0; i < n * n; ++i) number[i] = i;
-    for (std::uint32_t i = n * n - 1; i > 0; --i) std::swap(number[i], number[engine() % (i + 1)]);
+    for (std::uint32_t i = n * n - 1; i > 0; --i)
+        std::swap(number[i], number[engine() % (std::uint64_t{i} + 1)]);
     std::swap(number[0], *std::find(number.begin(), number.end(), 0u));
     std::swap(number[n - 1], *std::find(number.begin(), number.end(), 1u));
 

@@ -53,8 +53,8 @@ void write_label(Image& image, std::uint32_t first_column, const std::string& te
          top + scale * 10 + 2 * margin, dark);
     const auto place = [&](float a) { return static_cast<long>(std::lround(a)) * scale; };
     for (int k = 0; k < rectangles; ++k) {
-        const Corner& from = corners[static_cast<std::size_t>(4 * k)];
-        const Corner& to = corners[static_cast<std::size_t>(4 * k + 2)];
+        const Corner& from = corners[4 * static_cast<std::size_t>(k)];
+        const Corner& to = corners[4 * static_cast<std::size_t>(k) + 2];
         fill(image, left + margin + place(from.x), top + margin + place(from.y), left + margin + place(to.x),
              top + margin + place(to.y), light);
     }

@@ -67,7 +67,7 @@ OverlaySet overlays_of(const RenderOptions& options, const Scene& scene)
 /// One simulation and what is drawn of it.
 class Film {
 public:
-    Film(const Scene& scene, const RenderOptions& options, std::shared_ptr<vulkan::Device> device)
+    Film(const Scene& scene, const RenderOptions& options, const std::shared_ptr<vulkan::Device>& device)
         : simulation_(scene, with(options.simulation, device)),
           overlays_(overlays_of(options, scene)),
           renderer_(device, scene, topologies_of(simulation_))

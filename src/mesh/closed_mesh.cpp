@@ -72,8 +72,8 @@ std::string fault(const SurfaceMesh& mesh, const MeshReport& report)
         return "its triangles do not agree on the side that is outside, first at an edge of " +
                at_vertex(mesh, report.first_disagreement);
     if (report.inward_components > 0)
-        return counted(report.inward_components, "component is", "components are") + " inside out (volume " +
-               rounded(report.volume) + " m^3)";
+        return counted(report.inward_components, "component is", "components are") +
+               " inside out (volume of the mesh " + rounded(report.volume) + " m^3)";
     return "it encloses no volume (" + rounded(report.volume) + " m^3 within " + rounded(report.area) +
            " m^2)";
 }

@@ -47,19 +47,19 @@ TouchedArea::TouchedArea(const Stage& stage, const Camera& camera, std::uint32_t
 
 void TouchedArea::include(const PlacedCollider& collider, const ShapeMeshes& meshes)
 {
-    const auto [axes, size, colour] = placement_of(collider, inset_);
+    const ShapePlacement placement = placement_of(collider, inset_);
     const ShapeMeshes::Range range = mesh_of(collider, meshes);
     const std::span indices(meshes.indices.data() + range.first_index, range.index_count);
     const auto [first, last] = std::ranges::minmax(indices);
     for (std::uint32_t i = first; i <= last; ++i) {
         const auto& [at, half, normal] = meshes.vertices[i];
-        const double x = double{at[0]} * double{size[0]}, z = double{at[2]} * double{size[2]},
-                     y = double{at[1]} * double{size[1]} + double{half} * double{size[3]};
-        const auto along = [&axes, x, y, z](std::size_t axis) {
-            return double{axes[0][axis]} * x + double{axes[1][axis]} * y + double{axes[2][axis]} * z;
+        const double x = double{at[0]} * double{placement.size[0]},
+                     z = double{at[2]} * double{placement.size[2]},
+                     y = double{at[1]} * double{placement.size[1]} + double{half} * double{placement.size[3]};
+        const auto along = [x, y, z](const std::array<float, 4>& axis) {
+            return double{axis[0]} * x + double{axis[1]} * y + double{axis[2]} * z + double{axis[3]};
         };
-        include(Vec3d{along(0) + double{axes[0][3]}, along(1) + double{axes[1][3]},
-                      along(2) + double{axes[2][3]}});
+        include(Vec3d{along(placement.axes[0]), along(placement.axes[1]), along(placement.axes[2])});
     }
 }
 

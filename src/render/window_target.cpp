@@ -60,13 +60,13 @@ void WindowTarget::resize(const Device& device, vk::Extent2D wanted)
         swapchain_ = nullptr;
         return;
     }
-    using Usage = vk::ImageUsageFlagBits;
-    can_copy_ = static_cast<bool>(can.supportedUsageFlags & Usage::eTransferSrc);
+    using ImageUsage = vk::ImageUsageFlagBits;
+    can_copy_ = static_cast<bool>(can.supportedUsageFlags & ImageUsage::eTransferSrc);
     const std::uint32_t count =
         can.maxImageCount > 0 ? std::min(can.minImageCount + 1, can.maxImageCount) : can.minImageCount + 1;
     vk::SwapchainCreateInfoKHR info({}, surface_, count, surface_format_.format, surface_format_.colorSpace,
-                                    size_, 1, Usage::eColorAttachment);
-    if (can_copy_) info.imageUsage |= Usage::eTransferSrc;
+                                    size_, 1, ImageUsage::eColorAttachment);
+    if (can_copy_) info.imageUsage |= ImageUsage::eTransferSrc;
     info.preTransform = can.currentTransform;
     info.compositeAlpha = can.supportedCompositeAlpha & vk::CompositeAlphaFlagBitsKHR::eOpaque
                               ? vk::CompositeAlphaFlagBitsKHR::eOpaque

@@ -190,6 +190,30 @@ TEST(Bending, BackendsHaveEqualBits)
     }
 }
 
+TEST(Bending, OfAFlatMeshIsNothing)
+{
+    // Of triangles that are no two alike, turned out of its plane of rest. Sums over cotangents cancel to
+    // some roundings of the largest of them.
+    SurfaceMesh flat = test::irregular_mesh(9, 7);
+    for (Vec3& x : flat.vertices) x.y = 0;
+    Cloth cloth = Cloth::mesh(flat, {.density = 0.3});
+    cloth.springs = {{0, 0}, {0, 0}, {0, 0}};
+    cloth.springs.bend_model = BendModel::quadratic;
+    cloth.springs.bending_stiffness = 1;
+    cloth.rotation = {30, 40, 50};
+    Scene scene;
+    scene.gravity = {};
+    scene.time.substeps = 1;
+    scene.add(cloth);
+    Simulation simulation(scene, test::on(Backend::reference));
+    const double at_rest = simulation.report().measures.elastic_energy;
+    State bent = simulation.state();
+    bent.cloths[0].positions[31].y += 1e-3f;
+    simulation.set_state(bent);
+    EXPECT_GT(simulation.report().measures.elastic_energy, 1e-6);
+    EXPECT_LT(std::abs(at_rest), 1e-4 * simulation.report().measures.elastic_energy);
+}
+
 TEST(Bending, EnergyIsThatOfTheCurvature)
 {
     // A sheet rolled to a radius r, which stretches nothing but by h^2: B / (2 r^2) per area.

@@ -166,7 +166,9 @@ Json ComparisonTable::json() const
     Json columns = Json::array(), rows = Json::array();
     std::vector<std::size_t> kept;
     for (std::size_t c = 0; c < columns_.size(); ++c)
-        if (std::any_of(rows_.begin(), rows_.end(), [c](const Json& row) { return row[c] != ""; }))
+        if (std::any_of(rows_.begin(), rows_.end(), [c](const Json& row) {
+                return !(row[c].is_string() && row[c].get<std::string>().empty());
+            }))
             kept.push_back(c);
     for (const std::size_t c : kept) columns.push_back(columns_[c]);
     for (const Json& row : rows_) {
