@@ -21,7 +21,8 @@ struct LineStyle {
     std::uint32_t count = 0;
 };
 
-/// A part of a picture with all of the surfaces that it is made from: shaders/drawn.frag looks two pixels away.
+/// A part of a picture with all of the surfaces that it is made from: shaders/drawn.frag looks two pixels
+/// away.
 vk::Rect2D grown(const vk::Rect2D& part, vk::Extent2D size)
 {
     constexpr std::int32_t reach = 2;  // pixels
@@ -129,7 +130,7 @@ void SceneDrawing::draw_outlines(const vk::raii::CommandBuffer& commands, unsign
     bind(commands, Drawn::cloth_outline);
     for (const ClothDrawing& cloth : cloths_) {
         bind_set(commands, cloth.slots[slot]);
-        commands.draw(6 * cloth.edge_count, 1, 0, 0);
+        commands.draw(3 * cloth.edge_count, 1, 0, 0);
     }
     bind(commands, Drawn::shape_outline);
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, kit_->layout(), 1, kit_->shape_set(), {});
@@ -137,7 +138,7 @@ void SceneDrawing::draw_outlines(const vk::raii::CommandBuffer& commands, unsign
         if (is_ground(collider)) continue;
         push(commands, placement_of(collider, stage_.inset));
         const auto range = mesh_of(collider, kit_->shapes());
-        commands.draw(6 * range.edge_count, 1, 6 * range.first_edge, 0);
+        commands.draw(3 * range.edge_count, 1, 3 * range.first_edge, 0);
     }
 }
 

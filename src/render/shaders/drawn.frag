@@ -20,20 +20,22 @@ float share(float before, float here, float next, float after)
 
 void main()
 {
-    const ivec2 sides[4] = ivec2[](ivec2(1, 0), ivec2(-1, 0), ivec2(0, 1), ivec2(0, -1));
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec4 here = drawn_at(at);
-    int others = 0;
-    for (int k = 0; k < 4; ++k) others += drawn_at(at + sides[k]).a != here.a ? 1 : 0;
-    float depth = others > 0 ? depth_at(at) : 0.0, most = 0.0, sum = 1e-9;
+    bvec4 other = notEqual(vec4(drawn_at(at + ivec2(1, 0)).a, drawn_at(at - ivec2(1, 0)).a, drawn_at(at + ivec2(0, 1)).a,
+                                drawn_at(at - ivec2(0, 1)).a), vec4(here.a));
+    int axes = any(other) ? 2 : 0;
+    float depth = depth_at(at), most = 0.0, sum = 1e-9;
     vec3 beyond = vec3(0.0);
-    for (int k = 0; k < (others > 0 ? 4 : 0); ++k) {
-        ivec2 side = sides[k];
-        vec4 next = drawn_at(at + side);
-        float part = next.a != here.a ? share(depth_at(at - side), depth, depth_at(at + side), depth_at(at + 2 * side)) : 0.0;
-        most = max(most, part);
-        sum += part;
-        beyond += part * next.rgb;
+    for (int axis = 0; axis < axes; ++axis) {
+        ivec2 along = ivec2(1 - axis, axis);
+        bvec2 differ = axis == 0 ? other.xy : other.zw;
+        float before = depth_at(at - along), after = depth_at(at + along);
+        float forwards = differ.x ? share(before, depth, after, depth_at(at + 2 * along)) : 0.0;
+        float backwards = differ.y ? share(after, depth, before, depth_at(at - 2 * along)) : 0.0;
+        most = max(most, max(forwards, backwards));
+        sum += forwards + backwards;
+        beyond += forwards * drawn_at(at + along).rgb + backwards * drawn_at(at - along).rgb;
     }
     colour = vec4(mix(here.rgb, beyond / sum, most), 1.0);
 }

@@ -3,7 +3,7 @@
 // post-process anti-aliasing", 2011). Four samples for each pixel look no better, and cost a machine that rasterises in
 // software three times as much for the many small triangles of a cloth.
 layout(location = 0) flat out ivec2 across;  // the direction of the neighbours: the axis that the edge runs along least
-layout(location = 1) out float beyond;       // pixels, how far along it the pixel lies behind the edge
+layout(location = 1) out vec2 place;         // x: along the edge, 0 to 1; y: pixels across from it, along `across`
 layout(location = 2) flat out float strength;
 
 // In pixels and depth.
@@ -18,8 +18,8 @@ float rise(vec3 first, vec2 along, float slope, vec3 corner, float away)
     return max(0.0, (first.z + foot * slope - corner.z) / max(1.0, abs(away)));
 }
 
-// One of the six corners of a parallelogram of a pixel's height around an edge between two triangles; nowhere unless one of
-// them hides what lies beyond. A `sharp` edge, of a shape seen from outside alone, is there where any of them is seen, the
+// One of the three corners of a triangle with what lies within half a pixel of an edge between two triangles; nowhere unless
+// one of them hides what lies beyond. A `sharp` edge, of a shape seen from outside alone, is there where any of them is seen, the
 // weaker the less of them: beyond a face that is thinner than a pixel, the neighbour shows another.
 void outline(vec4 first, vec4 second, vec4 third, vec4 fourth, bool border, bool sharp, int corner)
 {
@@ -36,14 +36,13 @@ void outline(vec4 first, vec4 second, vec4 third, vec4 fourth, bool border, bool
     if (!seen || !(nearest > 0.0) || !(dot(along, along) > 0.0)) {
         gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
         across = ivec2(0);
-        beyond = 0.0;
+        place = vec2(0.0);
         return;
     }
     bool steep = abs(along.y) > abs(along.x);
     across = steep ? ivec2(1, 0) : ivec2(0, 1);
-    beyond = corner == 2 || corner >= 4 ? 0.5 : -0.5;
-    bool at_second = corner == 1 || corner == 2 || corner == 4;
-    vec3 end = at_second ? b : a;
+    place = vec2(corner == 1 ? 2.0 : 0.0, corner == 2 ? 1.5 : -0.5);
+    vec3 at = mix(a, b, place.x);
     float lift = max(rise(a, along, b.z - a.z, c, to_c), rise(a, along, b.z - a.z, d, to_d));
-    gl_Position = vec4((end.xy + beyond * vec2(across)) * frame.picture.zw * 2.0 - 1.0, max(0.0, end.z - lift - 1e-6), 1.0);
+    gl_Position = vec4((at.xy + place.y * vec2(across)) * frame.picture.zw * 2.0 - 1.0, at.z - lift - 1e-6, 1.0);
 }

@@ -9,8 +9,8 @@ vec4 place_of(uint corner) { return frame.clip_from_world * vec4(placed(position
 
 void main()
 {
-    uvec4 edge = edges[gl_VertexIndex / 6];
+    uvec4 edge = edges[gl_VertexIndex / 3];
     bool sharp = (edge.w >> 31) != 0u;  // `sharp_edge` in render/shapes.hpp
     outline(place_of(edge.x), place_of(edge.y), place_of(edge.z), place_of(edge.w & 0x7fffffffu), false,
-            sharp, gl_VertexIndex % 6);
+            sharp, gl_VertexIndex % 3);
 }
