@@ -104,7 +104,9 @@ TEST(Layouts, OfPicturesHaveEveryBufferThatTheirShadersUse)
             EXPECT_TRUE(bound.count(binding) > 0)
                 << shader.name << " uses storage buffer " << binding << ", which its layout lacks";
     }
-    EXPECT_EQ(with_buffers, 6u);  // of the cloth: its surface, shadow, picture; lines, points, wires
+    EXPECT_EQ(
+        with_buffers,
+        7u);  // of the cloth: its surface, shadow, picture, outlines; of shapes: outlines; lines, points
 }
 
 TEST(ShaderNeeds, AreThoseOfTheText)

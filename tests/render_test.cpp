@@ -256,8 +256,7 @@ TEST_F(Picture, takes_uploads_while_others_are_on_their_way)
     std::vector<std::unique_ptr<vulkan::OffscreenTarget>> targets;
     for (unsigned k = 0; k < slots; ++k)
         targets.push_back(std::make_unique<vulkan::OffscreenTarget>(*device, size));
-    const auto kit =
-        std::make_shared<vulkan::PictureKit>(device, targets[0]->target().pass, targets[0]->target().samples);
+    const auto kit = std::make_shared<vulkan::PictureKit>(device, targets[0]->target().passes);
     vulkan::SceneDrawing drawing(kit, scene, topologies, slots);
     std::vector<vk::raii::CommandBuffer> commands;
     for (unsigned k = 0; k < slots; ++k) {
@@ -295,6 +294,63 @@ TEST_F(Picture, has_any_size)
         ASSERT_EQ(image.rgba.size(), std::size_t{4} * width * height);
         for (std::size_t i = 3; i < image.rgba.size(); i += 4) ASSERT_EQ(image.rgba[i], 255);
     }
+}
+
+/// Linear light of sRGB.
+double light(std::uint8_t value)
+{
+    const double v = value / 255.0;
+    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+}
+
+/// How far a picture is from the mean of one with `scale` times its edges, in the pixels where that has an
+/// edge: the root of the mean square, of 255.
+double error_at_edges(const Image& image, const Image& large, std::uint32_t scale)
+{
+    double sum = 0;
+    int edges = 0;
+    for (std::uint32_t y = 0; y < image.height * 7 / 8; ++y)  // below lies the legend of the large one
+        for (std::uint32_t x = 0; x < image.width; ++x) {
+            double mean = 0, least = 1, most = 0;
+            for (std::uint32_t k = 0; k < scale * scale; ++k) {
+                const std::size_t row = y * scale + k / scale, column = x * scale + k % scale;
+                const double value = light(large.rgba[4 * (row * large.width + column)]);
+                mean += value / (scale * scale);
+                least = std::min(least, value), most = std::max(most, value);
+            }
+            if (most - least < 0.1) continue;
+            const double seen = light(image.rgba[4 * (std::size_t{y} * image.width + x)]);
+            sum += (seen - mean) * (seen - mean);
+            ++edges;
+        }
+    EXPECT_GT(edges, 150);
+    return 255 * std::sqrt(sum / edges);
+}
+
+TEST_F(Picture, has_smooth_edges)
+{
+    const auto error = [&](Scene scene, const Sheet& sheet) {
+        constexpr std::uint32_t scale = 8;
+        scene.camera.colour = ClothColour::strain;  // one colour
+        const Image image = draw(scene, sheet);
+        scene.camera.width *= scale, scene.camera.height *= scale;
+        return error_at_edges(image, draw(scene, sheet), scale);
+    };
+    // Outlines: of a sheet, its folds, and shapes.
+    Scene scene = scene_for(make_sheet(2, 2, 0.5), 0.5);
+    scene.colliders.clear();
+    scene.camera.position = {0.6, 1.0, 2.2};
+    scene.add(Sphere{.centre = {0.2, 1.0, -0.3}, .radius = 0.25});
+    scene.add(Capsule{.start = {-0.8, 0.2, 0}, .end = {-0.6, 0.9, 0.1}, .radius = 0.1});
+    scene.add(Box{.centre = {0.9, 0.8, -0.6}, .size = {0.4, 0.5, 0.3}, .rotation = {20, 30, 10}});
+    EXPECT_LT(error(scene, make_sheet(33, 31, 0.5, 0.4)), 10);  // jagged outlines: 26
+
+    // Where surfaces cut through each other.
+    scene.colliders.clear();
+    scene.add(Plane{});
+    scene.add(Sphere{.centre = {0.1, 0.05, 0.1}, .radius = 0.4});
+    scene.add(Sphere{.centre = {-0.5, 0.1, 0.1}, .radius = 0.3});
+    EXPECT_LT(error(scene, make_sheet(33, 31, 0.2, 0.3)), 6.5);  // jagged there: 7.7
 }
 
 TEST_F(Picture, darkens_the_ground_in_the_shadow_of_the_cloth)

@@ -24,12 +24,12 @@ vk::Extent2D checked(const Device& device, vk::Extent2D size)
 
 OffscreenTarget::OffscreenTarget(const Device& device, vk::Extent2D size)
     : size_(checked(device, size)),
-      format_{.samples = best_samples(device), .keeps = true},
-      pass_(make_picture_pass(device, format_)),
+      format_{.keeps = true},
+      passes_(device, format_),
       picture_(make_image(device, size, format_.colour,
                           vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc,
                           vk::ImageAspectFlagBits::eColor)),
-      buffers_(device, format_, *pass_, size),
+      buffers_(device, format_, passes_.handles(), size),
       framebuffer_(buffers_.make_framebuffer(device, *picture_.view)),
       copy_(device.make_buffer(vk::DeviceSize{4} * size.width * size.height,
                                vk::BufferUsageFlagBits::eTransferDst, Memory::readback, "picture"))

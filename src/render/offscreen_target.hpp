@@ -12,13 +12,9 @@ public:
     OffscreenTarget(const Device& device, vk::Extent2D size);
 
     const PictureFormat& format() const { return format_; }
-    PictureTarget target() const { return {*pass_, *framebuffer_, size_, format_.samples}; }
-
+    PictureTarget target() const { return buffers_.target(*framebuffer_); }
     /// The same for a part of the picture; the rest stays what it was.
-    PictureTarget target(const vk::Rect2D& part) const
-    {
-        return {*pass_, *framebuffer_, size_, format_.samples, part};
-    }
+    PictureTarget target(const vk::Rect2D& part) const { return buffers_.target(*framebuffer_, part); }
 
     /// Behind the drawing, in the same commands: the picture, or the part that was drawn, on its way to the
     /// host.
@@ -30,7 +26,7 @@ public:
 private:
     vk::Extent2D size_;
     PictureFormat format_;
-    vk::raii::RenderPass pass_;
+    PicturePasses passes_;
     DeviceImage picture_;
     PictureBuffers buffers_;
     vk::raii::Framebuffer framebuffer_;

@@ -44,6 +44,10 @@ public:
         bits_ = (bits_ & ~(1u << static_cast<int>(overlay))) | (on ? 1u : 0u) << static_cast<int>(overlay);
     }
     constexpr void toggle(Overlay overlay) { set(overlay, !has(overlay)); }
+    constexpr bool has_colours() const
+    {
+        return has(Overlay::strain) || has(Overlay::multipliers) || has(Overlay::volume);
+    }
     constexpr bool has_lines() const { return has(Overlay::springs) || has(Overlay::active); }
     constexpr bool needs_springs() const { return has_lines() || has(Overlay::strain); }
     friend constexpr bool operator==(OverlaySet, OverlaySet) = default;

@@ -1,13 +1,11 @@
 #include "render/picture_pass.hpp"
 
-#include <vector>
+#include <array>
 
 #include "pliant/error.hpp"
 
 namespace pliant::vulkan {
 namespace {
-
-bool many(vk::SampleCountFlagBits samples) { return samples != vk::SampleCountFlagBits::e1; }
 
 void require(const Device& device, vk::Format format, vk::FormatFeatureFlags features)
 {
@@ -17,81 +15,138 @@ void require(const Device& device, vk::Format format, vk::FormatFeatureFlags fea
                                                    "; choose another with --device");
 }
 
-}  // namespace
-
-vk::SampleCountFlagBits best_samples(const Device& device)
+vk::AttachmentDescription attachment(vk::Format format, vk::AttachmentLoadOp load,
+                                     vk::AttachmentStoreOp store, vk::ImageLayout first_layout,
+                                     vk::ImageLayout final_layout)
 {
-    const auto limits = device.physical().getProperties().limits;
-    const auto both = limits.framebufferColorSampleCounts & limits.framebufferDepthSampleCounts;
-    return both & vk::SampleCountFlagBits::e4 ? vk::SampleCountFlagBits::e4 : vk::SampleCountFlagBits::e1;
+    return {{},
+            format,
+            vk::SampleCountFlagBits::e1,
+            load,
+            store,
+            vk::AttachmentLoadOp::eDontCare,  // of a stencil
+            vk::AttachmentStoreOp::eDontCare,
+            first_layout,
+            final_layout};
+}
+
+vk::raii::RenderPass make_pass(const Device& device, const vk::AttachmentDescription& colour,
+                               const vk::AttachmentDescription& depth, vk::ImageLayout depth_layout,
+                               const std::array<vk::SubpassDependency, 2>& dependencies)
+{
+    const std::array attachments{colour, depth};
+    const vk::AttachmentReference to_colour(0, vk::ImageLayout::eColorAttachmentOptimal),
+        to_depth(1, depth_layout);
+    const vk::SubpassDescription subpass({}, vk::PipelineBindPoint::eGraphics, 0, nullptr, 1, &to_colour,
+                                         nullptr, &to_depth);
+    return {device.handle(), vk::RenderPassCreateInfo({}, attachments, subpass, dependencies)};
+}
+
+vk::raii::RenderPass make_surface_pass(const Device& device, const PictureFormat& format)
+{
+    using Load = vk::AttachmentLoadOp;
+    using Store = vk::AttachmentStoreOp;
+    using Layout = vk::ImageLayout;
+    using Step = vk::PipelineStageFlagBits;
+    using Access = vk::AccessFlagBits;
+    const auto depth_tests = Step::eEarlyFragmentTests | Step::eLateFragmentTests;
+    require(device, format.colour,
+            vk::FormatFeatureFlagBits::eColorAttachment | vk::FormatFeatureFlagBits::eColorAttachmentBlend |
+                vk::FormatFeatureFlagBits::eSampledImage);
+    require(device, depth_format,
+            vk::FormatFeatureFlagBits::eDepthStencilAttachment | vk::FormatFeatureFlagBits::eSampledImage);
+    // The backdrop covers every pixel that nothing else does: colours need no clearing. Before: the picture
+    // before reads them no more, nor depth. After: the pass of the picture reads both.
+    const auto written = Access::eColorAttachmentWrite | Access::eDepthStencilAttachmentWrite;
+    return make_pass(
+        device,
+        attachment(format.colour, Load::eDontCare, Store::eStore, Layout::eUndefined,
+                   Layout::eShaderReadOnlyOptimal),
+        attachment(depth_format, Load::eClear, Store::eStore, Layout::eUndefined,
+                   Layout::eDepthStencilReadOnlyOptimal),
+        Layout::eDepthStencilAttachmentOptimal,
+        {vk::SubpassDependency(
+             VK_SUBPASS_EXTERNAL, 0, Step::eFragmentShader | Step::eColorAttachmentOutput | depth_tests,
+             Step::eColorAttachmentOutput | depth_tests, Access::eDepthStencilAttachmentWrite,
+             written | Access::eDepthStencilAttachmentRead),
+         vk::SubpassDependency(0, VK_SUBPASS_EXTERNAL, Step::eColorAttachmentOutput | depth_tests,
+                               Step::eFragmentShader | depth_tests, written,
+                               Access::eShaderRead | Access::eDepthStencilAttachmentRead)});
 }
 
 vk::raii::RenderPass make_picture_pass(const Device& device, const PictureFormat& format)
 {
-    require(device, format.colour, vk::FormatFeatureFlagBits::eColorAttachment);
-    require(device, depth_format, vk::FormatFeatureFlagBits::eDepthStencilAttachment);
-
     using Load = vk::AttachmentLoadOp;
     using Store = vk::AttachmentStoreOp;
     using Layout = vk::ImageLayout;
-    const bool resolve = many(format.samples);
-    const auto attachment = [](vk::Format kind, vk::SampleCountFlagBits samples, Load load, Store store,
-                               Layout final_layout, Layout first_layout = Layout::eUndefined) {
-        return vk::AttachmentDescription({}, kind, samples, load, store, Load::eDontCare, Store::eDontCare,
-                                         first_layout, final_layout);
-    };
-    const Layout first_layout = format.keeps ? format.final_layout : Layout::eUndefined;  // of the picture
-    // The backdrop covers every pixel that nothing else does: colours need no clearing.
-    std::vector<vk::AttachmentDescription> attachments{
-        attachment(format.colour, format.samples, Load::eDontCare, resolve ? Store::eDontCare : Store::eStore,
-                   resolve ? Layout::eColorAttachmentOptimal : format.final_layout,
-                   resolve ? Layout::eUndefined : first_layout),
-        attachment(depth_format, format.samples, Load::eClear, Store::eDontCare,
-                   Layout::eDepthStencilAttachmentOptimal)};
-    if (resolve)
-        attachments.push_back(attachment(format.colour, vk::SampleCountFlagBits::e1, Load::eDontCare,
-                                         Store::eStore, format.final_layout, first_layout));
-
-    const vk::AttachmentReference colour(0, Layout::eColorAttachmentOptimal);
-    const vk::AttachmentReference depth(1, Layout::eDepthStencilAttachmentOptimal);
-    const vk::AttachmentReference picture(2, Layout::eColorAttachmentOptimal);
-    const vk::SubpassDescription subpass({}, vk::PipelineBindPoint::eGraphics, 0, nullptr, 1, &colour,
-                                         resolve ? &picture : nullptr, &depth);
-
-    // Before: the last picture has been copied or shown, and its depth is no longer read. After:
-    // it may be copied.
-    using Stage = vk::PipelineStageFlagBits;
+    using Step = vk::PipelineStageFlagBits;
     using Access = vk::AccessFlagBits;
-    const auto drawing =
-        Stage::eColorAttachmentOutput | Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
-    const auto drawn = Access::eColorAttachmentWrite | Access::eDepthStencilAttachmentWrite;
-    const vk::SubpassDependency dependencies[] = {
-        {VK_SUBPASS_EXTERNAL, 0, drawing | Stage::eTransfer, drawing, drawn,
-         drawn | Access::eColorAttachmentRead | Access::eDepthStencilAttachmentRead},
-        {0, VK_SUBPASS_EXTERNAL, Stage::eColorAttachmentOutput, Stage::eTransfer,
-         Access::eColorAttachmentWrite, Access::eTransferRead}};
-    return {device.handle(), vk::RenderPassCreateInfo({}, attachments, subpass, dependencies)};
+    // Before: the last picture has been copied or shown. After: this one may be copied.
+    return make_pass(
+        device,
+        attachment(format.colour, Load::eDontCare, Store::eStore,
+                   format.keeps ? format.final_layout : Layout::eUndefined, format.final_layout),
+        attachment(depth_format, Load::eLoad, Store::eDontCare, Layout::eDepthStencilReadOnlyOptimal,
+                   Layout::eDepthStencilReadOnlyOptimal),
+        Layout::eDepthStencilReadOnlyOptimal,
+        {vk::SubpassDependency(VK_SUBPASS_EXTERNAL, 0, Step::eColorAttachmentOutput | Step::eTransfer,
+                               Step::eColorAttachmentOutput, Access::eColorAttachmentWrite,
+                               Access::eColorAttachmentRead | Access::eColorAttachmentWrite),
+         vk::SubpassDependency(0, VK_SUBPASS_EXTERNAL, Step::eColorAttachmentOutput, Step::eTransfer,
+                               Access::eColorAttachmentWrite, Access::eTransferRead)});
 }
 
-PictureBuffers::PictureBuffers(const Device& device, const PictureFormat& format, vk::RenderPass pass,
-                               vk::Extent2D size)
-    : pass_(pass), size_(size)
+}  // namespace
+
+PicturePasses::PicturePasses(const Device& device, const PictureFormat& format)
+    : surfaces_(make_surface_pass(device, format)), picture_(make_picture_pass(device, format))
 {
-    using Usage = vk::ImageUsageFlagBits;
-    if (many(format.samples))
-        samples_ =
-            make_image(device, size, format.colour, Usage::eColorAttachment | Usage::eTransientAttachment,
-                       vk::ImageAspectFlagBits::eColor, format.samples);
-    depth_ =
-        make_image(device, size, depth_format, Usage::eDepthStencilAttachment | Usage::eTransientAttachment,
-                   vk::ImageAspectFlagBits::eDepth, format.samples);
+}
+
+vk::raii::DescriptorSetLayout make_drawn_layout(const Device& device)
+{
+    using Kind = vk::DescriptorType;
+    const vk::DescriptorSetLayoutBinding colour_and_depth[] = {
+        {0, Kind::eCombinedImageSampler, 1, vk::ShaderStageFlagBits::eFragment},
+        {1, Kind::eCombinedImageSampler, 1, vk::ShaderStageFlagBits::eFragment}};
+    return {device.handle(), vk::DescriptorSetLayoutCreateInfo({}, colour_and_depth)};
+}
+
+PictureBuffers::PictureBuffers(const Device& device, const PictureFormat& format, PicturePassHandles passes,
+                               vk::Extent2D size)
+    : passes_(passes),
+      size_(size),
+      colour_(make_image(device, size, format.colour,
+                         vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled,
+                         vk::ImageAspectFlagBits::eColor)),
+      depth_(make_image(device, size, depth_format,
+                        vk::ImageUsageFlagBits::eDepthStencilAttachment | vk::ImageUsageFlagBits::eSampled,
+                        vk::ImageAspectFlagBits::eDepth)),
+      sampler_(device.handle(), vk::SamplerCreateInfo{}),
+      layout_(make_drawn_layout(device))
+{
+    const std::array views{*colour_.view, *depth_.view};
+    framebuffer_ = {device.handle(),
+                    vk::FramebufferCreateInfo({}, passes.surfaces, views, size.width, size.height, 1)};
+    const vk::DescriptorPoolSize two(vk::DescriptorType::eCombinedImageSampler, 2);
+    pool_ = {device.handle(), {vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, two}};
+    const vk::DescriptorSetLayout layout = *layout_;
+    drawn_ = std::move(vk::raii::DescriptorSets(device.handle(), {*pool_, layout}).front());
+    using Layout = vk::ImageLayout;
+    const vk::DescriptorImageInfo images[] = {
+        {*sampler_, *colour_.view, Layout::eShaderReadOnlyOptimal},
+        {*sampler_, *depth_.view, Layout::eDepthStencilReadOnlyOptimal}};
+    device.handle().updateDescriptorSets(
+        {vk::WriteDescriptorSet(*drawn_, 0, 0, vk::DescriptorType::eCombinedImageSampler, images[0]),
+         vk::WriteDescriptorSet(*drawn_, 1, 0, vk::DescriptorType::eCombinedImageSampler, images[1])},
+        {});
 }
 
 vk::raii::Framebuffer PictureBuffers::make_framebuffer(const Device& device, vk::ImageView picture) const
 {
-    std::vector<vk::ImageView> views{picture, *depth_.view};
-    if (*samples_.view) views = {*samples_.view, *depth_.view, picture};
-    return {device.handle(), vk::FramebufferCreateInfo({}, pass_, views, size_.width, size_.height, 1)};
+    const std::array views{picture, *depth_.view};
+    return {device.handle(),
+            vk::FramebufferCreateInfo({}, passes_.picture, views, size_.width, size_.height, 1)};
 }
 
 }  // namespace pliant::vulkan

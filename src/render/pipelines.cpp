@@ -26,11 +26,17 @@ constexpr std::uint32_t cloth_frag[] = {
 constexpr std::uint32_t cloth_vert[] = {
 #include "shaders/cloth.vert.inc"
 };
+constexpr std::uint32_t cloth_outline_vert[] = {
+#include "shaders/cloth_outline.vert.inc"
+};
 constexpr std::uint32_t cloth_shadow_vert[] = {
 #include "shaders/cloth_shadow.vert.inc"
 };
 constexpr std::uint32_t cloth_surface_comp[] = {
 #include "shaders/cloth_surface.comp.inc"
+};
+constexpr std::uint32_t drawn_frag[] = {
+#include "shaders/drawn.frag.inc"
 };
 constexpr std::uint32_t ground_frag[] = {
 #include "shaders/ground.frag.inc"
@@ -50,6 +56,9 @@ constexpr std::uint32_t line_frag[] = {
 constexpr std::uint32_t line_vert[] = {
 #include "shaders/line.vert.inc"
 };
+constexpr std::uint32_t outline_frag[] = {
+#include "shaders/outline.frag.inc"
+};
 constexpr std::uint32_t point_frag[] = {
 #include "shaders/point.frag.inc"
 };
@@ -62,15 +71,11 @@ constexpr std::uint32_t shape_frag[] = {
 constexpr std::uint32_t shape_vert[] = {
 #include "shaders/shape.vert.inc"
 };
+constexpr std::uint32_t shape_outline_vert[] = {
+#include "shaders/shape_outline.vert.inc"
+};
 constexpr std::uint32_t shape_shadow_vert[] = {
 #include "shaders/shape_shadow.vert.inc"
-};
-
-constexpr std::uint32_t wire_frag[] = {
-#include "shaders/wire.frag.inc"
-};
-constexpr std::uint32_t wire_vert[] = {
-#include "shaders/wire.vert.inc"
 };
 
 using Code = std::span<const std::uint32_t>;
@@ -84,13 +89,13 @@ struct Recipe {
     bool one_sided = false;
     bool behind_everything = false;  ///< covers only pixels that nothing has covered
     bool over_everything = false;
-    bool as_wires = false;
+    bool over_surfaces = false;  ///< in the second pass
+    bool blended = false;        ///< as much as its alpha says
 };
 
 /// What the pipelines of a pass have in common.
 struct Pass {
     vk::RenderPass pass;
-    vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
     bool casts_shadows = false;
 };
 
@@ -130,19 +135,19 @@ vk::raii::Pipeline make_pipeline(const Device& device, vk::PipelineLayout layout
         raster.depthBiasConstantFactor = 2.0f;
         raster.depthBiasSlopeFactor = 2.0f;
     }
-    if (recipe.as_wires) {  // in front of the triangles that they border
-        raster.polygonMode = vk::PolygonMode::eLine;
-        raster.depthBiasEnable = VK_TRUE;
-        raster.depthBiasConstantFactor = -50.0f;
-        raster.depthBiasSlopeFactor = -1.0f;
-    }
-    const vk::PipelineMultisampleStateCreateInfo multisample({}, pass.samples);
+    const vk::PipelineMultisampleStateCreateInfo multisample({}, vk::SampleCountFlagBits::e1);
     const bool far = recipe.behind_everything, free = recipe.over_everything;
     const vk::PipelineDepthStencilStateCreateInfo depth(
-        {}, !free, !far && !free, far ? vk::CompareOp::eLessOrEqual : vk::CompareOp::eLess);
+        {}, !free, !far && !recipe.over_surfaces, far ? vk::CompareOp::eLessOrEqual : vk::CompareOp::eLess);
     using Channel = vk::ColorComponentFlagBits;
     vk::PipelineColorBlendAttachmentState blend;
     blend.colorWriteMask = Channel::eR | Channel::eG | Channel::eB | Channel::eA;
+    if (recipe.blended) {
+        using Factor = vk::BlendFactor;
+        blend.blendEnable = VK_TRUE;
+        blend.srcColorBlendFactor = Factor::eSrcAlpha, blend.dstColorBlendFactor = Factor::eOneMinusSrcAlpha;
+        blend.srcAlphaBlendFactor = Factor::eZero, blend.dstAlphaBlendFactor = Factor::eOne;
+    }
     vk::PipelineColorBlendStateCreateInfo blending;
     if (!pass.casts_shadows) blending.setAttachments(blend);
     const std::array<vk::DynamicState, 2> changing{vk::DynamicState::eViewport, vk::DynamicState::eScissor};
@@ -172,9 +177,10 @@ vk::raii::DescriptorSetLayout make_cloth_set(const Device& device, std::span<con
 }
 
 vk::raii::PipelineLayout make_layout(const Device& device, vk::DescriptorSetLayout frame,
-                                     vk::DescriptorSetLayout cloth)
+                                     vk::DescriptorSetLayout cloth, vk::DescriptorSetLayout picture = {})
 {
-    const vk::DescriptorSetLayout sets[] = {frame, cloth};
+    const vk::DescriptorSetLayout all[] = {frame, cloth, picture};
+    const vk::ArrayProxyNoTemporaries<const vk::DescriptorSetLayout> sets(picture ? 3u : 2u, all);
     const vk::PushConstantRange constants(push_constant_stages, 0, push_constant_bytes);
     return {device.handle(), vk::PipelineLayoutCreateInfo({}, sets, constants)};
 }
@@ -207,11 +213,21 @@ Recipe recipe_of(Drawn drawn)
             return {.vertex = legend_vert,
                     .fragment = legend_frag,
                     .topology = Topology::eTriangleStrip,
-                    .over_everything = true};
+                    .over_everything = true,
+                    .over_surfaces = true};
         case Drawn::lines:
-            return {.vertex = line_vert, .fragment = line_frag, .topology = Topology::eLineList};
-        case Drawn::points: return {.vertex = point_vert, .fragment = point_frag};
-        case Drawn::wires: return {.vertex = wire_vert, .fragment = wire_frag, .as_wires = true};
+            return {.vertex = line_vert, .fragment = line_frag, .over_surfaces = true, .blended = true};
+        case Drawn::points:
+            return {.vertex = point_vert, .fragment = point_frag, .over_surfaces = true, .blended = true};
+        case Drawn::drawn:
+            return {.vertex = backdrop_vert,
+                    .fragment = drawn_frag,
+                    .over_everything = true,
+                    .over_surfaces = true};
+        case Drawn::cloth_outline:
+            return {.vertex = cloth_outline_vert, .fragment = outline_frag, .over_surfaces = true};
+        case Drawn::shape_outline:
+            return {.vertex = shape_outline_vert, .fragment = outline_frag, .over_surfaces = true};
     }
     return {};
 }
@@ -240,6 +256,14 @@ Buffer make_filled(const Device& device, const std::vector<T>& data, vk::BufferU
     return buffer;
 }
 
+/// The places of vertices, as shaders/shape_outline.vert takes them.
+std::vector<std::array<float, 4>> corners_of(const ShapeMeshes& meshes)
+{
+    std::vector<std::array<float, 4>> corners;
+    for (const auto& [at, half, normal] : meshes.vertices) corners.push_back({at[0], at[1], at[2], half});
+    return corners;
+}
+
 }  // namespace
 
 std::span<const PictureShader> picture_shaders()
@@ -248,42 +272,58 @@ std::span<const PictureShader> picture_shaders()
                                             {"backdrop.vert", backdrop_vert, drawn_bindings},
                                             {"cloth.frag", cloth_frag, drawn_bindings},
                                             {"cloth.vert", cloth_vert, drawn_bindings},
+                                            {"cloth_outline.vert", cloth_outline_vert, drawn_bindings},
                                             {"cloth_shadow.vert", cloth_shadow_vert, drawn_bindings},
                                             {"cloth_surface.comp", cloth_surface_comp, surface_bindings},
+                                            {"drawn.frag", drawn_frag, drawn_bindings},
                                             {"ground.frag", ground_frag, drawn_bindings},
                                             {"ground.vert", ground_vert, drawn_bindings},
                                             {"legend.frag", legend_frag, drawn_bindings},
                                             {"legend.vert", legend_vert, drawn_bindings},
                                             {"line.frag", line_frag, drawn_bindings},
                                             {"line.vert", line_vert, drawn_bindings},
+                                            {"outline.frag", outline_frag, drawn_bindings},
                                             {"point.frag", point_frag, drawn_bindings},
                                             {"point.vert", point_vert, drawn_bindings},
                                             {"shape.frag", shape_frag, drawn_bindings},
                                             {"shape.vert", shape_vert, drawn_bindings},
-                                            {"shape_shadow.vert", shape_shadow_vert, drawn_bindings},
-                                            {"wire.frag", wire_frag, drawn_bindings},
-                                            {"wire.vert", wire_vert, drawn_bindings}};
+                                            {"shape_outline.vert", shape_outline_vert, drawn_bindings},
+                                            {"shape_shadow.vert", shape_shadow_vert, drawn_bindings}};
     return shaders;
 }
 
-PictureKit::PictureKit(std::shared_ptr<Device> device, vk::RenderPass pass, vk::SampleCountFlagBits samples)
+PictureKit::PictureKit(std::shared_ptr<Device> device, PicturePassHandles passes)
     : device_(checked(std::move(device))),
-      pass_(pass),
-      samples_(samples),
+      passes_(passes),
       shadow_map_(*device_),
       frame_set_(make_frame_set(*device_)),
       drawn_set_(make_cloth_set(*device_, drawn_bindings, vk::ShaderStageFlagBits::eVertex)),
       surface_set_(make_cloth_set(*device_, surface_bindings, vk::ShaderStageFlagBits::eCompute)),
-      layout_(make_layout(*device_, *frame_set_, *drawn_set_)),
+      picture_set_(make_drawn_layout(*device_)),
+      layout_(make_layout(*device_, *frame_set_, *drawn_set_, *picture_set_)),
       surface_layout_(make_layout(*device_, *frame_set_, *surface_set_)),
       surface_(make_surface(*device_, *surface_layout_)),
-      pipelines_{nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr},
+      pipelines_{nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,
+                 nullptr, nullptr, nullptr, nullptr, nullptr, nullptr},
       shapes_(make_shape_meshes()),
       shape_vertices_(
           make_filled(*device_, shapes_.vertices, vk::BufferUsageFlagBits::eVertexBuffer, "shape vertices")),
       shape_indices_(
-          make_filled(*device_, shapes_.indices, vk::BufferUsageFlagBits::eIndexBuffer, "shape indices"))
+          make_filled(*device_, shapes_.indices, vk::BufferUsageFlagBits::eIndexBuffer, "shape indices")),
+      shape_corners_(make_filled(*device_, corners_of(shapes_), vk::BufferUsageFlagBits::eStorageBuffer,
+                                 "shape corners")),
+      shape_edges_(
+          make_filled(*device_, shapes_.edges, vk::BufferUsageFlagBits::eStorageBuffer, "shape edges"))
 {
+    const vk::DescriptorPoolSize buffers(vk::DescriptorType::eStorageBuffer, drawn_bindings.size());
+    pool_ = {device_->handle(), {vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, buffers}};
+    const vk::DescriptorSetLayout layout = *drawn_set_;
+    shape_set_ = std::move(vk::raii::DescriptorSets(device_->handle(), {*pool_, layout}).front());
+    const auto corners = shape_corners_.descriptor(), edges = shape_edges_.descriptor();
+    device_->handle().updateDescriptorSets(
+        {vk::WriteDescriptorSet(*shape_set_, 0, 0, vk::DescriptorType::eStorageBuffer, {}, corners),
+         vk::WriteDescriptorSet(*shape_set_, 11, 0, vk::DescriptorType::eStorageBuffer, {}, edges)},
+        {});
 }
 
 vk::Pipeline PictureKit::pipeline(Drawn drawn) const
@@ -291,10 +331,9 @@ vk::Pipeline PictureKit::pipeline(Drawn drawn) const
     vk::raii::Pipeline& known = pipelines_[static_cast<std::size_t>(drawn)];
     if (*known) return *known;
     const Recipe recipe = recipe_of(drawn);
-    if (recipe.as_wires && !device_->draws_wires()) return nullptr;
     const bool shadow = drawn == Drawn::cloth_shadow || drawn == Drawn::shape_shadow;
     const Pass shadows{.pass = shadow_map_.pass(), .casts_shadows = true};
-    const Pass picture{.pass = pass_, .samples = samples_};
+    const Pass picture{.pass = recipe.over_surfaces ? passes_.picture : passes_.surfaces};
     known = make_pipeline(*device_, *layout_, shadow ? shadows : picture, recipe);
     return *known;
 }

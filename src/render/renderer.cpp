@@ -40,8 +40,7 @@ struct Renderer::Implementation {
                    std::span<const ClothTopology> topologies)
         : camera(scene.camera),
           target(*device, {camera.width, camera.height}),
-          drawing(std::make_shared<vulkan::PictureKit>(device, target.target().pass, target.target().samples),
-                  scene, topologies),
+          drawing(std::make_shared<vulkan::PictureKit>(device, target.target().passes), scene, topologies),
           commands(device->make_commands())
     {
     }

@@ -11,14 +11,7 @@ namespace {
 
 using Usage = vk::BufferUsageFlagBits;
 
-constexpr vk::Extent2D legend_least{400, 240};  // pixels; in smaller pictures it would hide the cloth
-
 constexpr std::uint32_t floats_uploaded = 3, floats_on_device = 4;  // of a node
-
-/// As shaders/cloth_surface.comp.
-struct SurfaceStyle {
-    std::uint32_t node_count, rows, columns, stride, strain;
-};
 
 /// Lists of pairs, one list for each node, as shaders take them: where each begins, then all of them.
 class PairLists {
@@ -46,18 +39,6 @@ private:
     std::vector<std::uint32_t> begins_;
     std::vector<std::array<std::uint32_t, 3>> pairs_;
 };
-
-/// As shaders/line.vert.
-struct LineStyle {
-    std::uint32_t kind = 0;
-    float length = 0;  ///< m
-};
-
-bool has_colours(OverlaySet overlays)
-{
-    return overlays.has(Overlay::strain) || overlays.has(Overlay::multipliers) ||
-           overlays.has(Overlay::volume);
-}
 
 [[noreturn]] void refuse(const std::string& message) { throw Error(ErrorKind::bad_usage, message); }
 
@@ -147,6 +128,10 @@ SceneDrawing::ClothDrawing SceneDrawing::make_cloth(const Cloth& cloth, const Cl
     drawing.strains = make(1, "seen strains");
     const std::vector<float> no_strains(topology.node_count, 0.0f);
     device_->write(drawing.strains, no_strains.data(), no_strains.size() * sizeof(float));
+    if (const auto edges = edges_of(topology.triangles); !edges.empty()) {
+        drawing.edges = make_filled(edges, "cloth edges");
+        drawing.edge_count = static_cast<std::uint32_t>(edges.size());
+    }
     if (topology.columns == 0) {
         PairLists ring(topology.node_count);
         for (const Triangle& t : topology.triangles)
@@ -209,7 +194,7 @@ void SceneDrawing::prepare(const PictureState& state, vk::Extent2D size, unsigne
     uniforms.value_low = scale.low;
     uniforms.value_high = scale.high;
     uniforms.blend = state.blend;
-    if (has_colours(state.overlays)) uniforms.colours = scale.diverging ? 2 : 1;
+    if (state.overlays.has_colours()) uniforms.colours = scale.diverging ? 2 : 1;
     std::memcpy(slot.uniforms.mapped, &uniforms, sizeof uniforms);
 }
 
@@ -224,42 +209,6 @@ std::optional<PixelArea> SceneDrawing::touched(const PictureState& state, vk::Ex
         touched.include(host->positions);
     }
     return touched.area();
-}
-
-void SceneDrawing::begin(const vk::raii::CommandBuffer& commands, const PictureTarget& target,
-                         unsigned slot) const
-{
-    record_surfaces(commands, slot);
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, kit_->layout(), 0, *slots_[slot].frame_set,
-                                {});
-    record_shadows(commands, slot);
-    record_picture(commands, target, slot);
-}
-
-void SceneDrawing::record_surfaces(const vk::raii::CommandBuffer& commands, unsigned slot) const
-{
-    // What computed or copied the nodes has been submitted before; here it becomes visible. And the last
-    // picture may still be drawn from what is written now.
-    using Stage = vk::PipelineStageFlagBits;
-    using Access = vk::AccessFlagBits;
-    barrier(commands, Stage::eComputeShader | Stage::eTransfer | Stage::eVertexShader,
-            Access::eShaderWrite | Access::eTransferWrite, Stage::eComputeShader,
-            Access::eShaderRead | Access::eShaderWrite);
-    commands.bindPipeline(vk::PipelineBindPoint::eCompute, kit_->surface());
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, kit_->surface_layout(), 0,
-                                *slots_[slot].frame_set, {});
-    const bool strain = slots_[slot].overlays.has(Overlay::strain);
-    for (const ClothDrawing& cloth : cloths_) {
-        const ClothSlot& of = cloth.slots[slot];
-        commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, kit_->surface_layout(), 1,
-                                    *of.surface_set, {});
-        push(commands, SurfaceStyle{cloth.node_count, cloth.rows, cloth.columns, of.stride,
-                                    strain && cloth.neighbours.size > 0 && !of.has_values ? 1u : 0u});
-        commands.dispatch((cloth.node_count + PictureKit::surface_group - 1) / PictureKit::surface_group, 1,
-                          1);
-    }
-    barrier(commands, Stage::eComputeShader, Access::eShaderWrite, Stage::eVertexInput | Stage::eVertexShader,
-            Access::eShaderRead | Access::eIndexRead | Access::eVertexAttributeRead);
 }
 
 void SceneDrawing::bind_cloth(const ClothDrawing& cloth, ClothSlot& slot, const ClothFrame& frame,
@@ -293,7 +242,8 @@ void SceneDrawing::bind_cloth(const ClothDrawing& cloth, ClothSlot& slot, const 
                                                              or_nothing(slot.held),
                                                              now,
                                                              or_nothing(cloth.ring),
-                                                             or_nothing(cloth.neighbours)};
+                                                             or_nothing(cloth.neighbours),
+                                                             or_nothing(cloth.edges)};
     if (wanted == slot.bound) return;
     slot.bound = wanted;
     std::array<vk::DescriptorBufferInfo, cloth_binding_count> infos;
@@ -348,123 +298,6 @@ void SceneDrawing::take_extras(const ClothDrawing& cloth, ClothSlot& slot, const
         slot.points = device_->make_buffer(sizeof(ContactPoint) * cloth.node_count, Usage::eStorageBuffer,
                                            Memory::upload, "contact points");
     std::memcpy(slot.points.mapped, extras.contacts.data(), slot.point_count * sizeof(ContactPoint));
-}
-
-void SceneDrawing::bind(const vk::raii::CommandBuffer& commands, Drawn drawn) const
-{
-    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, kit_->pipeline(drawn));
-}
-
-void SceneDrawing::bind_set(const vk::raii::CommandBuffer& commands, const ClothSlot& slot) const
-{
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, kit_->layout(), 1, *slot.drawn_set, {});
-}
-
-void SceneDrawing::record_shadows(const vk::raii::CommandBuffer& commands, unsigned slot) const
-{
-    kit_->shadow_map().begin(commands);
-    bind(commands, Drawn::cloth_shadow);
-    draw_cloths(commands, slot);
-    bind(commands, Drawn::shape_shadow);
-    draw_shapes(commands, slot);
-    kit_->shadow_map().end(commands);
-}
-
-void SceneDrawing::record_picture(const vk::raii::CommandBuffer& commands, const PictureTarget& target,
-                                  unsigned slot) const
-{
-    // Attachments: colours (covered by the backdrop, not cleared), depth.
-    const std::array<vk::ClearValue, 2> clear{vk::ClearColorValue{}, vk::ClearDepthStencilValue(1.0f, 0)};
-    commands.beginRenderPass(vk::RenderPassBeginInfo(target.pass, target.framebuffer, target.part, clear),
-                             vk::SubpassContents::eInline);
-    commands.setViewport(0, vk::Viewport(0, 0, static_cast<float>(target.size.width),
-                                         static_cast<float>(target.size.height), 0, 1));
-    commands.setScissor(0, target.part);
-
-    // From the front to the back, so that what is hidden costs no shading.
-    bind(commands, Drawn::cloth);
-    draw_cloths(commands, slot);
-    bind(commands, Drawn::shape);
-    draw_shapes(commands, slot);
-    bind(commands, Drawn::ground);
-    draw_floors(commands, slot);
-    bind(commands, Drawn::backdrop);
-    commands.draw(3, 1, 0, 0);
-    draw_overlays(commands, target.size, slot);
-}
-
-void SceneDrawing::draw_overlays(const vk::raii::CommandBuffer& commands, vk::Extent2D size,
-                                 unsigned slot) const
-{
-    const OverlaySet shown = slots_[slot].overlays;
-    if (shown.has(Overlay::wireframe) && kit_->pipeline(Drawn::wires)) {
-        bind(commands, Drawn::wires);
-        draw_cloths(commands, slot);
-    }
-    const auto draw_lines = [&](std::uint32_t kind, float length) {
-        push(commands, LineStyle{kind, length});
-        for (const ClothDrawing& cloth : cloths_) {
-            bind_set(commands, cloth.slots[slot]);
-            const bool any = kind != 1 || cloth.slots[slot].has_held;
-            const std::uint32_t count = kind == 2 ? cloth.node_count : cloth.line_count;
-            if (any) commands.draw(2 * count, 1, 0, 0);
-        }
-    };
-    if (shown.has_lines() || shown.has(Overlay::normals)) bind(commands, Drawn::lines);
-    if (shown.has(Overlay::springs)) draw_lines(0, 0);
-    if (shown.has(Overlay::active)) draw_lines(1, 0);
-    if (shown.has(Overlay::normals)) draw_lines(2, static_cast<float>(0.02 * stage_.view_distance));
-    if (shown.has(Overlay::contacts)) {
-        bind(commands, Drawn::points);
-        for (const ClothDrawing& cloth : cloths_) {
-            bind_set(commands, cloth.slots[slot]);
-            commands.draw(6 * cloth.slots[slot].point_count, 1, 0, 0);
-        }
-    }
-    if (has_colours(shown) && size.width >= legend_least.width && size.height >= legend_least.height) {
-        bind(commands, Drawn::legend);
-        push(commands, slots_[slot].legend);
-        commands.draw(4, 1, 0, 0);
-    }
-}
-
-void SceneDrawing::draw_cloths(const vk::raii::CommandBuffer& commands, unsigned slot) const
-{
-    for (const ClothDrawing& cloth : cloths_) {
-        if (cloth.index_count == 0) continue;
-        bind_set(commands, cloth.slots[slot]);
-        commands.bindIndexBuffer(*cloth.indices, 0, vk::IndexType::eUint32);
-        commands.drawIndexed(cloth.index_count, 1, 0, 0, 0);
-    }
-}
-
-void SceneDrawing::draw_shapes(const vk::raii::CommandBuffer& commands, unsigned slot) const
-{
-    commands.bindVertexBuffers(0, kit_->shape_vertices(), vk::DeviceSize{0});
-    commands.bindIndexBuffer(kit_->shape_indices(), 0, vk::IndexType::eUint32);
-    for (const PlacedCollider& collider : slots_[slot].placed) {
-        if (is_ground(collider)) continue;
-        push(commands, placement_of(collider, stage_.inset));
-        const auto range = mesh_of(collider, kit_->shapes());
-        commands.drawIndexed(range.index_count, 1, range.first_index, 0, 0);
-    }
-}
-
-void SceneDrawing::draw_floors(const vk::raii::CommandBuffer& commands, unsigned slot) const
-{
-    const auto draw = [&](double height, bool collider) {
-        push(commands, ground_at(stage_, height, collider));
-        commands.draw(4, 1, 0, 0);
-    };
-    for (const PlacedCollider& collider : slots_[slot].placed)
-        if (is_ground(collider)) draw(collider.centre.y, true);
-    if (!stage_.has_plane) draw(stage_.floor_height, false);
-}
-
-template <class Constants>
-void SceneDrawing::push(const vk::raii::CommandBuffer& commands, const Constants& constants) const
-{
-    commands.pushConstants<Constants>(kit_->layout(), push_constant_stages, 0, constants);
 }
 
 }  // namespace pliant::vulkan

@@ -108,8 +108,8 @@ private:
     };
     /// One cloth on the device.
     struct ClothDrawing {
-        std::uint32_t node_count = 0, rows = 0, columns = 0, index_count = 0, line_count = 0;
-        Buffer indices, pattern, ring, lines, neighbours;
+        std::uint32_t node_count = 0, rows = 0, columns = 0, index_count = 0, line_count = 0, edge_count = 0;
+        Buffer indices, pattern, ring, lines, neighbours, edges;
         Buffer positions, normals, strains;  // as seen; shaders/cloth_surface.comp makes them
         std::vector<ClothSlot> slots;
     };
@@ -133,6 +133,7 @@ private:
     void record_shadows(const vk::raii::CommandBuffer& commands, unsigned slot) const;
     void record_picture(const vk::raii::CommandBuffer& commands, const PictureTarget& target,
                         unsigned slot) const;
+    void draw_outlines(const vk::raii::CommandBuffer& commands, unsigned slot) const;
     void draw_overlays(const vk::raii::CommandBuffer& commands, vk::Extent2D size, unsigned slot) const;
     void draw_cloths(const vk::raii::CommandBuffer& commands, unsigned slot) const;
     void draw_shapes(const vk::raii::CommandBuffer& commands, unsigned slot) const;

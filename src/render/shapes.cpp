@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 namespace pliant {
@@ -56,11 +57,37 @@ void add_cube(ShapeMeshes& meshes)
         }
 }
 
-ShapeMeshes::Range added_by(void (*add)(ShapeMeshes&), ShapeMeshes& meshes)
+/// The edges of triangles between places, of which a mesh has a vertex for each normal and each end of a
+/// seam.
+std::vector<SurfaceEdge> edges_between_places(const ShapeMeshes& meshes, std::size_t first_index)
+{
+    std::map<std::array<float, 4>, std::uint32_t> places;
+    const auto place_of = [&](std::uint32_t vertex) {
+        const auto& [at, half, normal] = meshes.vertices[vertex];
+        const auto rounded = [](float x) { return std::round(x * 1e5f) + 0.0f; };  // and no negative zero
+        return places.try_emplace({rounded(at[0]), rounded(at[1]), rounded(at[2]), half}, vertex)
+            .first->second;
+    };
+    std::vector<Triangle> triangles;
+    for (std::size_t i = first_index; i < meshes.indices.size(); i += 3) {
+        const Triangle t{place_of(meshes.indices[i]), place_of(meshes.indices[i + 1]),
+                         place_of(meshes.indices[i + 2])};
+        if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles.push_back(t);  // not those at the poles
+    }
+    return edges_of(triangles);
+}
+
+ShapeMeshes::Range added_by(void (*add)(ShapeMeshes&), ShapeMeshes& meshes, bool sharp)
 {
     const auto first = static_cast<std::uint32_t>(meshes.indices.size());
+    const auto first_edge = static_cast<std::uint32_t>(meshes.edges.size());
     add(meshes);
-    return {first, static_cast<std::uint32_t>(meshes.indices.size()) - first};
+    for (SurfaceEdge edge : edges_between_places(meshes, first)) {
+        if (sharp) edge[3] |= sharp_edge;
+        meshes.edges.push_back(edge);
+    }
+    return {first, static_cast<std::uint32_t>(meshes.indices.size()) - first, first_edge,
+            static_cast<std::uint32_t>(meshes.edges.size()) - first_edge};
 }
 
 }  // namespace
@@ -68,8 +95,8 @@ ShapeMeshes::Range added_by(void (*add)(ShapeMeshes&), ShapeMeshes& meshes)
 ShapeMeshes make_shape_meshes()
 {
     ShapeMeshes meshes;
-    meshes.round = added_by(add_round, meshes);
-    meshes.cube = added_by(add_cube, meshes);
+    meshes.round = added_by(add_round, meshes, false);
+    meshes.cube = added_by(add_cube, meshes, true);
     return meshes;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "body/collider_motion.hpp"
+#include "render/surface_edges.hpp"
 
 namespace pliant {
 
@@ -16,15 +17,19 @@ struct ShapeVertex {
     std::array<float, 3> normal;
 };
 
+/// In the last number of an edge: the light changes there, so that it is seen even where it is no outline.
+constexpr std::uint32_t sharp_edge = 1u << 31;
+
 /// All unit meshes in one vertex and one index list.
 struct ShapeMeshes {
     struct Range {
-        std::uint32_t first_index = 0, index_count = 0;
+        std::uint32_t first_index = 0, index_count = 0, first_edge = 0, edge_count = 0;
     };
     std::vector<ShapeVertex> vertices;
     std::vector<std::uint32_t> indices;
-    Range round;  ///< sphere of radius 1, cut at the equator: also a capsule
-    Range cube;   ///< [-1, 1]^3
+    std::vector<SurfaceEdge> edges;  ///< by the first of the vertices at each place; see sharp_edge
+    Range round;                     ///< sphere of radius 1, cut at the equator: also a capsule
+    Range cube;                      ///< [-1, 1]^3
 };
 ShapeMeshes make_shape_meshes();
 

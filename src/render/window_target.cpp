@@ -34,8 +34,8 @@ std::uint32_t clamped(std::uint32_t a, std::uint32_t least, std::uint32_t most)
 WindowTarget::WindowTarget(const Device& device, vk::SurfaceKHR surface)
     : surface_(surface),
       surface_format_(surface_format(device, surface)),
-      format_{surface_format_.format, best_samples(device), vk::ImageLayout::ePresentSrcKHR},
-      pass_(make_picture_pass(device, format_))
+      format_{surface_format_.format, vk::ImageLayout::ePresentSrcKHR},
+      passes_(device, format_)
 {
 }
 
@@ -75,7 +75,7 @@ void WindowTarget::resize(const Device& device, vk::Extent2D wanted)
     info.clipped = VK_TRUE;
     info.oldSwapchain = *swapchain_;
     swapchain_ = vk::raii::SwapchainKHR(device.handle(), info);
-    buffers_.emplace(device, format_, *pass_, size_);
+    buffers_.emplace(device, format_, passes_.handles(), size_);
     for (const vk::Image handle : swapchain_.getImages()) {
         WindowImage image;
         image.handle = handle;

@@ -16,8 +16,7 @@ public:
     /// the device cannot draw to the surface.
     WindowTarget(const Device& device, vk::SurfaceKHR surface);
 
-    vk::RenderPass pass() const { return *pass_; }
-    vk::SampleCountFlagBits samples() const { return format_.samples; }
+    PicturePassHandles passes() const { return passes_.handles(); }
 
     /// Makes images of the surface's size, or of this one where the surface leaves it open. No picture may be
     /// on its way. Without an area (a minimised window) there are no images.
@@ -42,10 +41,7 @@ public:
     /// False when the images fit the surface no more.
     bool present(const Device& device, std::uint32_t image) const;
 
-    PictureTarget target(std::uint32_t image) const
-    {
-        return {*pass_, *images_[image].framebuffer, size_, format_.samples};
-    }
+    PictureTarget target(std::uint32_t image) const { return buffers_->target(*images_[image].framebuffer); }
     /// Behind the drawing, in the same commands: the picture on its way to the host. False when the surface
     /// does not allow it.
     bool record_copy(const Device& device, const vk::raii::CommandBuffer& commands, std::uint32_t image);
@@ -62,7 +58,7 @@ private:
     vk::SurfaceKHR surface_;
     vk::SurfaceFormatKHR surface_format_;
     PictureFormat format_;
-    vk::raii::RenderPass pass_{nullptr};
+    PicturePasses passes_;
     vk::raii::SwapchainKHR swapchain_{nullptr};
     std::optional<PictureBuffers> buffers_;
     std::vector<WindowImage> images_;

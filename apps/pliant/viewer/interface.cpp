@@ -59,8 +59,7 @@ Interface::Interface(const Screen& screen) : device_(screen.device())
     info.Queue = static_cast<VkQueue>(*device_->queue());
     info.DescriptorPool = static_cast<VkDescriptorPool>(*pool_);
     info.MinImageCount = info.ImageCount = Screen::slots;
-    info.MSAASamples = static_cast<VkSampleCountFlagBits>(screen.samples());
-    ImGui_ImplVulkan_Init(&info, static_cast<VkRenderPass>(screen.pass()));
+    ImGui_ImplVulkan_Init(&info, static_cast<VkRenderPass>(screen.passes().picture));
     const auto commands = device_->make_commands();
     commands.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
     ImGui_ImplVulkan_CreateFontsTexture(static_cast<VkCommandBuffer>(*commands));

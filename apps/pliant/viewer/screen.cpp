@@ -31,8 +31,7 @@ public:
     }
     ~HeadlessScreen() override { device_->wait_idle(); }
 
-    vk::RenderPass pass() const override { return target_->target().pass; }
-    vk::SampleCountFlagBits samples() const override { return target_->target().samples; }
+    vulkan::PicturePassHandles passes() const override { return target_->target().passes; }
     vk::Extent2D size() const override { return size_; }
     void poll(std::vector<Event>&) override {}
     bool read(Image& into) override
@@ -46,7 +45,7 @@ public:
         size_ = vk::Extent2D{width, height};
         if (width == 0 || height == 0) return;
         device_->wait_idle();
-        // The first target stays: its pass is what pipelines were made for.
+        // The first target stays: its passes are what pipelines were made for.
         auto next = std::make_unique<vulkan::OffscreenTarget>(*device_, size_);
         if (!first_)
             first_ = std::move(next), target_ = first_.get();

@@ -29,8 +29,7 @@ public:
 
     virtual ~Screen() = default;
     const std::shared_ptr<vulkan::Device>& device() const { return device_; }
-    virtual vk::RenderPass pass() const = 0;
-    virtual vk::SampleCountFlagBits samples() const = 0;
+    virtual vulkan::PicturePassHandles passes() const = 0;
     virtual vk::Extent2D size() const = 0;
 
     /// What has happened since it was asked last.

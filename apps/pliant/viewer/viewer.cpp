@@ -14,7 +14,7 @@
 namespace pliant::tool {
 Viewer::Viewer(std::unique_ptr<Screen> screen, const SimulationOptions& simulation)
     : screen_(std::move(screen)),
-      kit_(std::make_shared<vulkan::PictureKit>(screen_->device(), screen_->pass(), screen_->samples())),
+      kit_(std::make_shared<vulkan::PictureKit>(screen_->device(), screen_->passes())),
       interface_(*screen_),
       session_(simulation, screen_->device())
 {

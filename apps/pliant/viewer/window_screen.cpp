@@ -79,8 +79,7 @@ public:
         target_->clear();
     }
 
-    vk::RenderPass pass() const override { return target_->pass(); }
-    vk::SampleCountFlagBits samples() const override { return target_->samples(); }
+    vulkan::PicturePassHandles passes() const override { return target_->passes(); }
     vk::Extent2D size() const override { return target_->size(); }
 
     void poll(std::vector<Event>& events) override

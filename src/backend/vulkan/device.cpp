@@ -68,10 +68,6 @@ void Device::open(const DeviceOptions& options)
 
     const float priority = 1.0f;
     const vk::DeviceQueueCreateInfo queue({}, queue_family_, 1, &priority);
-    const auto available = physical_.getFeatures();
-    vk::PhysicalDeviceFeatures features;
-    features.fillModeNonSolid = available.fillModeNonSolid;  // the wireframe overlay
-    draws_wires_ = features.fillModeNonSolid == VK_TRUE;
     std::vector<const char*> extensions;
     if (!options.surface_extensions.empty()) {
         if (!offers(physical_, VK_KHR_SWAPCHAIN_EXTENSION_NAME))
@@ -96,7 +92,7 @@ void Device::open(const DeviceOptions& options)
                                                                 &all);
         extensions.push_back(VK_KHR_PORTABILITY_SUBSET_EXTENSION_NAME);
     }
-    vk::DeviceCreateInfo creation({}, queue, {}, extensions, &features);
+    vk::DeviceCreateInfo creation({}, queue, {}, extensions);
     if (is_portable) creation.pNext = &portable;
     device_ = {physical_, creation};
     memory_pool_.emplace(device_, memory_properties_, info_.max_allocation);

@@ -83,7 +83,6 @@ public:
     const vk::raii::Instance& instance() const { return instance_; }
     std::uint32_t queue_family() const { return queue_family_; }
     bool can_draw() const { return can_draw_; }                    ///< the queue does graphics too
-    bool draws_wires() const { return draws_wires_; }              ///< triangles as lines
     double timestamp_period() const { return timestamp_period_; }  ///< ns per tick; 0 without timestamps
     /// Ticks between two timestamps, of which only the queue's valid bits count.
     std::uint64_t ticks_between(std::uint64_t first, std::uint64_t second) const
@@ -143,7 +142,7 @@ private:
     vk::raii::PhysicalDevice physical_{nullptr};
     PhysicalDeviceInfo info_;
     std::uint32_t queue_family_ = 0;
-    bool can_draw_ = false, draws_wires_ = false;
+    bool can_draw_ = false;
     double timestamp_period_ = 0;
     std::uint32_t timestamp_bits_ = 0;
     vk::raii::Device device_{nullptr};

@@ -8,6 +8,7 @@
 layout(location = 0) in vec3 point;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 pattern_and_value;
+layout(location = 3) flat in vec2 number;  // in front and behind
 layout(location = 0) out vec4 colour;
 
 void main()
@@ -22,5 +23,5 @@ void main()
     else
         albedo = mix(gl_FrontFacing ? front_dark : back_dark, gl_FrontFacing ? front_light : back_light,
                      checker(pattern_and_value.xy));
-    colour = vec4(shade(albedo, point, side, 0.06, 18.0, 0.25), 1.0);
+    colour = vec4(shade(albedo, point, side, 0.06, 18.0, 0.25), gl_FrontFacing ? number.x : number.y);
 }

@@ -16,3 +16,4 @@ layout(set = 1, binding = 8) readonly buffer Now { float now[]; };         // po
 // node begin comes first.
 layout(set = 1, binding = 9) readonly buffer Ring { uint ring[]; };
 layout(set = 1, binding = 10) readonly buffer Neighbours { uint neighbours[]; };
+layout(set = 1, binding = 11) readonly buffer Edges { uvec4 edges[]; };  // two ends, then the third corners of the triangles at it

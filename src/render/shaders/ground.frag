@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "frame.glsl"
 #include "shading.glsl"
+#include "surfaces.glsl"
 #include "pattern.glsl"
 #include "ground.glsl"
 
@@ -18,5 +19,5 @@ void main()
     float present = ground.strength * (1.0 - smoothstep(0.0, 0.5, away));
     vec3 light = ambient(vec3(0.0, 1.0, 0.0)) + sun * (frame.to_light.y * sunlight(point, vec3(0.0, 1.0, 0.0), present > 0.0));
     vec3 floor_colour = albedo * (1.0 - lines * ground.strength * 0.55) * light;
-    colour = vec4(mix(backdrop(gl_FragCoord.y * frame.picture.w), floor_colour, present), 1.0);
+    colour = vec4(mix(backdrop(gl_FragCoord.y * frame.picture.w), floor_colour, present), ground_number);
 }

@@ -6,6 +6,6 @@ layout(location = 0) out vec4 colour;
 
 void main()
 {
-    if (dot(from_middle, from_middle) > 1.0) discard;
-    colour = vec4(depth > 0.0 ? vec3(0.9, 0.02, 0.02) : vec3(0.95, 0.50, 0.02), 1.0);
+    float away = length(from_middle), covered = clamp((1.0 - away) / fwidth(away) + 0.5, 0.0, 1.0);
+    colour = vec4(depth > 0.0 ? vec3(0.9, 0.02, 0.02) : vec3(0.95, 0.50, 0.02), covered);
 }

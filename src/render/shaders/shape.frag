@@ -5,10 +5,10 @@
 
 layout(location = 0) in vec3 point;
 layout(location = 1) in vec3 normal;
-layout(location = 2) flat in vec3 albedo;
+layout(location = 2) flat in vec4 albedo_and_number;
 layout(location = 0) out vec4 colour;
 
 void main()
 {
-    colour = vec4(shade(albedo, point, normalize(normal), 0.22, 48.0, 0.0), 1.0);
+    colour = vec4(shade(albedo_and_number.rgb, point, normalize(normal), 0.22, 48.0, 0.0), albedo_and_number.a);
 }

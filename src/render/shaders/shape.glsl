@@ -5,15 +5,13 @@ layout(push_constant) uniform Placement {
     vec4 colour;   // linear
 } placement;
 
-layout(location = 0) in vec4 corner;  // w: -1 or 1, which half it belongs to
-layout(location = 1) in vec3 corner_normal;
-
 vec3 turned(vec3 local)
 {
     return placement.axes[0].xyz * local.x + placement.axes[1].xyz * local.y + placement.axes[2].xyz * local.z;
 }
 
-vec3 placed_corner()
+// `corner`.w: -1 or 1, which half it belongs to.
+vec3 placed(vec4 corner)
 {
     vec3 local = corner.xyz * placement.size.xyz + vec3(0.0, corner.w * placement.size.w, 0.0);
     return turned(local) + vec3(placement.axes[0].w, placement.axes[1].w, placement.axes[2].w);
