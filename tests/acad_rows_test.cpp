@@ -89,7 +89,7 @@ std::set<std::size_t> expected_rows(const ClothModel& model, const std::vector<V
     };
     if (model.is_sheet())
         for_each_sheet_spring(*model.sheet, [&](std::uint32_t i, std::uint32_t j, const SheetNeighbour& n) {
-            look(i, j, model.sheet->rest_lengths[n.rest]);
+            look(i, j, model.sheet->rest_lengths[static_cast<std::size_t>(n.rest)]);
         });
     else
         for (const Spring& s : model.springs) look(s.i, s.j, s.rest_length);

@@ -154,7 +154,7 @@ std::string damaged(std::string bytes, std::mt19937& random)
         default:
             for (std::size_t i = 0; i <= below(8); ++i)
                 bytes[below(bytes.size())] =
-                    static_cast<char>(below(2) ? random() : "0123456789-.e \n"[below(15)]);
+                    below(2) ? static_cast<char>(random()) : "0123456789-.e \n"[below(15)];
             return bytes;
     }
 }

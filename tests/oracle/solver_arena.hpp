@@ -26,8 +26,9 @@ public:
     Vector vector(int plane) const
     {
         Vector all(static_cast<Eigen::Index>(3 * model_.node_count()));
+        Eigen::Index row = 0;
         for (std::uint32_t vertex = 0; vertex < model_.node_count(); ++vertex)
-            for (int k = 0; k < 3; ++k) all[3 * vertex + k] = at(plane + k, model_.node(vertex));
+            for (int k = 0; k < 3; ++k) all[row++] = at(plane + k, model_.node(vertex));
         return all;
     }
 

@@ -99,7 +99,7 @@ TEST(Oscillator, KeepsItsFrequencyAndAmplitudeOverAMillionSteps)
         const double dt = 0.001, speed = 0.5, theta = 2 * std::asin(omega * dt / 2);
         Simulation simulation(oscillator(dt, speed), test::on(backend));
         const double tolerance = backend == Backend::reference ? 1e-6 : 4 * 1e3 * 0x1p-24 * 10;
-        for (int part = 1; part <= 10; ++part) {
+        for (unsigned part = 1; part <= 10; ++part) {
             simulation.advance(1e5 * dt);
             ASSERT_EQ(simulation.report().steps, part * 100'000u);
             const double x = simulation.positions()[0].x, v = simulation.velocities()[0].x;

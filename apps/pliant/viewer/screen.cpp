@@ -1,20 +1,17 @@
 #include "viewer/screen.hpp"
 
-#include <chrono>
-
 #include "pliant/error.hpp"
 #include "render/offscreen_target.hpp"
+#include "stopwatch.hpp"
 
 namespace pliant::tool {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// Adds the time until it goes to a sum of seconds.
 class Stopwatch {
 public:
     explicit Stopwatch(double& seconds) : seconds_(seconds) {}
-    ~Stopwatch() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+    ~Stopwatch() { seconds_ += seconds_since(start_); }
     Stopwatch(const Stopwatch&) = delete;
     Stopwatch& operator=(const Stopwatch&) = delete;
 
