@@ -447,6 +447,31 @@ TEST_F(Picture, has_a_checker_with_two_sides)
     EXPECT_GT(dark(below).r, dark(below).b + 20);
 }
 
+TEST_F(Picture, shades_a_sheet_as_the_mesh_that_it_is)
+{
+    // At its four corners, each of which has one quadrant of a normal alone; a mesh has its normals from
+    // triangles. Its border is turned up, so that cells are flat and corners steeper than what is beside
+    // them.
+    Sheet sheet = make_sheet(5, 5, 0.5);
+    for (Vec3& x : sheet.positions)
+        x.y += (std::abs(x.x) > 0.4f ? 0.2f : 0.0f) + (std::abs(x.z) > 0.4f ? 0.2f : 0.0f);
+    Scene scene = scene_for(sheet, 0.5);
+    scene.camera.position = {0.1, 3.6, 0.9};
+    scene.camera.colour = ClothColour::strain;  // one colour
+    const Image as_sheet = draw(scene, sheet);
+    Sheet mesh = sheet;
+    mesh.rows = mesh.columns = 0;
+    const Image as_mesh = draw(scene, mesh);
+    for (const std::uint32_t row : {0u, 4u})
+        for (const std::uint32_t column : {0u, 4u}) {
+            const Vec3d corner = sheet.node(row, column),
+                        inside = sheet.node(row == 0 ? 1 : 3, column == 0 ? 1 : 3);
+            const Vec3d seen = corner * 0.85 + inside * 0.15;
+            const Pixel a = pixel_at(as_sheet, scene.camera, seen), b = pixel_at(as_mesh, scene.camera, seen);
+            EXPECT_NEAR(a.sum(), b.sum(), 3) << row << ", " << column;
+        }
+}
+
 TEST_F(Picture, shows_strain_as_colour)
 {
     Sheet sheet = make_sheet(9, 9, 0.5);
