@@ -5,7 +5,7 @@
 namespace pliant::vulkan {
 namespace {
 
-constexpr std::uint32_t reach = 2;                  // of a spring, in nodes
+constexpr std::uint32_t spring_reach = 2;           // of a spring, in nodes
 constexpr std::uint32_t node_bytes = 7 * 4;         // in shared memory
 constexpr std::uint32_t largest_region = 32 << 10;  // bytes, so that a processor has room for several groups
 constexpr std::uint32_t largest_side = 64;          // nodes
@@ -37,12 +37,12 @@ SheetTile sheet_tile(const vk::PhysicalDeviceLimits& limits, std::uint32_t steps
     SheetTile best;
     double least = 0;  // nodes that are computed for one that is left
     for (std::uint32_t columns = 8; columns <= largest_side; columns += 8) {
-        const std::uint32_t halo = 2 * reach * steps, region_rows = nodes / (columns + halo);
+        const std::uint32_t halo = 2 * spring_reach * steps, region_rows = nodes / (columns + halo);
         if (region_rows <= halo) continue;
         const std::uint32_t rows = std::min(region_rows - halo, largest_side);
         double computed = 0;
         for (std::uint32_t left = 0; left < steps; ++left)
-            computed += (rows + 2.0 * reach * left) * (columns + 2.0 * reach * left);
+            computed += (rows + 2.0 * spring_reach * left) * (columns + 2.0 * spring_reach * left);
         const double share = computed / (1.0 * steps * rows * columns);
         if (best.rows > 0 && share >= least) continue;
         best = {rows, columns,
