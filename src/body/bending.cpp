@@ -214,8 +214,7 @@ void add_bending(std::vector<Spring>& springs, std::span<const Triangle> triangl
     // has nothing but its weight.
     const std::size_t known = springs.size();
     std::size_t s = 0;
-    for (std::size_t k = 0; k < weights.size(); ++k) {
-        const PairWeight& pair = weights[k];
+    for (const PairWeight& pair : weights) {
         while (s < known && (springs[s].i != pair.i ? springs[s].i < pair.i : springs[s].j < pair.j)) ++s;
         if (s < known && springs[s].i == pair.i && springs[s].j == pair.j) {
             springs[s].bending += pair.weight;

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "pliant/mesh.hpp"
 #include "pliant/vec3.hpp"
 
 namespace pliant {

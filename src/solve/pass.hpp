@@ -87,33 +87,8 @@ constexpr std::uint32_t first_look = 1, last_look = 2;
 struct SumSlots {
     std::uint32_t first = 0, count = 0;
 };
-constexpr SumSlots sum_slots_of(Pass pass)
-{
-    switch (pass) {
-        case Pass::mesh_springs: return {sum_spring_energy, 1};
-        case Pass::mesh_gather: return {sum_node_energy, 2};     // and of contact
-        case Pass::sheet_gather: return {sum_spring_energy, 3};  // and both of these
-        case Pass::mesh_apply:
-        case Pass::linear_apply: return {sum_curvature, 1};
-        case Pass::linear_begin:
-        case Pass::linear_update: return {sum_linear_residual2, 1};
-        case Pass::linear_jacobi:
-        case Pass::linear_plain:
-        case Pass::mesh_smooth:
-        case Pass::level_smooth: return {sum_rho, 1};
-        case Pass::acad_begin:
-        case Pass::step_begin: return {sum_load, 1};
-        case Pass::mesh_limits:
-        case Pass::sheet_limits: return {sum_active, 1};
-        case Pass::sheet_marks: return {sum_active, 2};  // and marked springs
-        case Pass::step_end: return {sum_lost, 2};       // and active constraints
-        case Pass::paper_springs: return {sum_active, 1};
-        case Pass::paper_apply: return {sum_curvature, 1};
-        case Pass::paper_system: return {sum_linear_residual2, 1};
-        case Pass::paper_update: return {sum_linear_residual2, 2};
-        default: return {};
-    }
-}
+SumSlots sum_slots_of(Pass pass);
+
 constexpr std::uint32_t sum_slot_count = sum_slots;
 
 /// Sums are taken by one tree, whatever runs a pass: over groups of sum_columns columns (or edges, or rows)

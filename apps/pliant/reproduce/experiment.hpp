@@ -68,8 +68,8 @@ struct StabilityRule {
     double timed_at_most = 0;    ///< s: what a step costs is measured with the longest one up to this
 };
 
-struct Experiment {
-    Json data;                                 ///< as it is written
+struct Experiment {  // NOLINT(bugprone-exception-escape): to move JSON does not throw
+    Json data;       ///< as it is written
     std::string id, paper, item, title, kind;  ///< kind: speed, behaviour, stability, passes
     std::string scene, setting, differs;
     std::vector<std::string> set;

@@ -9,7 +9,7 @@ namespace pliant::tool::reproduce {
 namespace {
 
 std::string percent(double fraction) { return number_text(100 * fraction); }
-std::string if_measured(const Measurement& m, std::string text) { return m.measured ? text : ""; }
+std::string if_measured(const Measurement& m, const std::string& text) { return m.measured ? text : ""; }
 
 constexpr Quantity quantities[] = {
     {"nodes", "nodes", "", [](const Measurement& m) { return number_text(static_cast<double>(m.nodes)); }},

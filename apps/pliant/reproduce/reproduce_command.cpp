@@ -144,7 +144,7 @@ void report(const Circumstances& here)
         if (auto document = finished(experiment, here)) documents.push_back(std::move(*document));
     std::vector<std::string> notes;
     if (here.quick)
-        notes.push_back(
+        notes.emplace_back(
             "A quick run: small sizes and few frames, to see that everything works; its speeds are no "
             "measurement.");
     const std::string no_figures = draw_figures(here.out, documents);

@@ -35,10 +35,10 @@ struct LaneTypes;
 #define PLIANT_LANE_TYPES(W)                                                           \
     template <>                                                                        \
     struct LaneTypes<W> {                                                              \
-        typedef float Floats __attribute__((vector_size(W * 4)));                      \
-        typedef float UnalignedFloats __attribute__((vector_size(W * 4), aligned(4))); \
-        typedef std::int32_t Integers __attribute__((vector_size(W * 4)));             \
-        typedef std::uint32_t Bits __attribute__((vector_size(W * 4)));                \
+        typedef float Floats __attribute__((vector_size((W)*4)));                      \
+        typedef float UnalignedFloats __attribute__((vector_size((W)*4), aligned(4))); \
+        typedef std::int32_t Integers __attribute__((vector_size((W)*4)));             \
+        typedef std::uint32_t Bits __attribute__((vector_size((W)*4)));                \
     };
 PLIANT_LANE_TYPES(4)
 PLIANT_LANE_TYPES(8)
