@@ -148,9 +148,10 @@ private:
     void axis(const Axis& axis, bool horizontal)
     {
         const int last = static_cast<int>(std::floor(std::log10(axis.high * 1.001)));
-        for (int decade = static_cast<int>(std::floor(std::log10(axis.low))); decade <= last; ++decade)
+        for (int decade = static_cast<int>(std::floor(std::log10(axis.low))); decade <= last; ++decade) {
+            const double one = std::pow(10, decade);
             for (int digit = 1; digit < 10; ++digit) {
-                const double value = digit * std::pow(10, decade);
+                const double value = digit * one;
                 if (value < axis.low * 0.999 || value > axis.high * 1.001) continue;
                 const double at = axis.at(value);
                 const char* style = digit == 1 ? "stroke=\"#bbb\"" : "stroke=\"#eee\"";
@@ -165,6 +166,7 @@ private:
                 else
                     text(x_.from - 8, at + 4, "end", number_text(value));
             }
+        }
     }
     void draw(const Series& series, std::size_t k)
     {
