@@ -39,14 +39,15 @@ EndState end_of(const Scene& scene, const SimulationOptions& options, int frames
 TEST(Parity, CpuAndVulkanEndWithTheSameBitsAndFollowTheReference)
 {
     const Scene scene = read_scene("parity");
-    const EndState cpu = end_of(scene, test::on(Backend::cpu), 120);
-    const EndState vulkan = end_of(scene, test::on(Backend::vulkan), 120);
-    const EndState reference = end_of(scene, test::on(Backend::reference), 120);
+    constexpr int frames = 40;
+    const EndState cpu = end_of(scene, test::on(Backend::cpu), frames);
+    const EndState vulkan = end_of(scene, test::on(Backend::vulkan), frames);
+    const EndState reference = end_of(scene, test::on(Backend::reference), frames);
     EXPECT_EQ(cpu.hash, vulkan.hash);
     // A step rounds positions of 0.5 to 1 m by at most half an ulp, 2^-25 m. In tension nothing amplifies
-    // that, and roundings are as good as independent: 12,000 steps walk sqrt(12,000) of them, 3.3e-6 m. As
+    // that, and roundings are as good as independent: 4,000 steps walk sqrt(4,000) of them, 1.9e-6 m. As
     // much again for what the velocities' roundings add.
-    constexpr double steps = 120 * 100, half_ulp = 0x1p-25;
+    constexpr double steps = frames * 100, half_ulp = 0x1p-25;
     const double furthest = test::largest_difference(cpu.positions, reference.positions);
     EXPECT_LE(furthest, 2 * std::sqrt(steps) * half_ulp);
     RecordProperty("furthest_m", std::to_string(furthest));

@@ -100,11 +100,9 @@ void HeldSprings::read(PassRunner& runner, std::uint32_t model, std::span<const 
 {
     held.assign(springs_.size(), 0);
     if (springs_.empty()) return;
-    if (marked_) {
-        // A step of acad that had nothing to solve leaves the marks of the last one that had.
-        if (!rows_ && runner.solver_scalar(model, scalar_idle) != 0) return;
-        runner.solver_numbers(model, first_, count_, marks_);
-    }
+    // A step of acad that had nothing to solve leaves the marks of the last one that had; but then the
+    // forces are 0.
+    if (marked_) runner.solver_numbers(model, first_, count_, marks_);
     for (std::size_t s = 0; s < springs_.size(); ++s) {
         const Row& spring = springs_[s];
         if (spring.least < 0 || (marked_ && (spring.mark < 0 || marks_[std::size_t(spring.mark)] == 0)))
