@@ -159,14 +159,12 @@ struct Bench {
         runner.run({++programs, std::move(calls), parity_after},
                    {dt, static_cast<std::uint32_t>(colliders.size()), colliders, true, attached});
     }
-    /// The first look at a step, or one at the same place that is not the first.
-    std::vector<Call> look(bool first) const
+    /// The first look at a step.
+    std::vector<Call> look() const
     {
         std::vector<Call> calls;
         append_attachments(model, 0, 0, 0, calls);
         append_linear_system(model, 0, 0, calls);
-        if (first) return calls;
-        for (Call& call : calls) call.detail = 0;
         return calls;
     }
 
@@ -177,15 +175,13 @@ struct Bench {
     std::optional<ImplicitStep> step;
 };
 
-/// One in which the oracle's differences cross no corner, and contact has something for the first look, too.
+/// One in which the oracle's differences cross no corner.
 Bench clear_bench(const OracleCase& c, double shake, double speed, double stretch = 0)
 {
     for (unsigned seed = 1;; ++seed) {
         Bench bench(c, seed, shake, speed, stretch);
         const Vector& t = bench.step->start();
-        const bool has_first_look = bench.step->first_look_force(t).norm() > 1;
-        if (seed == 1000 || (bench.step->nearest_corner(t) > 0x1p-15 && has_first_look == c.contact))
-            return bench;
+        if (seed == 1000 || bench.step->nearest_corner(t) > 0x1p-15) return bench;
     }
 }
 
@@ -262,49 +258,39 @@ TEST_P(StepOracle, HasTheForcesTheEnergyAndTheOperator)
     const ImplicitStep& step = *bench.step;
     const Vector t = step.start();
     ASSERT_GT(step.nearest_corner(t), 0x1p-15);
-    for (Machine& machine : machines_of(bench.model))
-        for (const bool first : {false, true}) {
-            const std::string who = machine.name + (first ? ", first look" : "");
-            bench.run(*machine.runner, bench.look(first));
-            const SolverArena arena(bench.model, *machine.runner, machine.on_host);
-            expect_near(arena.vector(plane_t), t, 2 * rounding * 0.05, who + ", start");
-            // On the CPU y is rounded where it is made of terms of up to 1 m/s.
-            expect_near(arena.vector(plane_y), step.aim(), 4 * rounding * 0.05, who + ", aim");
+    for (Machine& machine : machines_of(bench.model)) {
+        const std::string& who = machine.name;
+        bench.run(*machine.runner, bench.look());
+        const SolverArena arena(bench.model, *machine.runner, machine.on_host);
+        expect_near(arena.vector(plane_t), t, 2 * rounding * 0.05, who + ", start");
+        // On the CPU y is rounded where it is made of terms of up to 1 m/s.
+        expect_near(arena.vector(plane_y), step.aim(), 4 * rounding * 0.05, who + ", aim");
 
-            Vector force = step.force(t);
-            Matrix newton = step.newton_matrix(t), coarse = step.coarse_matrix(t);
-            if (first) {
-                force += step.first_look_force(t);
-                newton += step.first_look_matrix(t);
-                coarse += step.first_look_matrix(t);
-                if (c.contact) {
-                    EXPECT_GT(step.first_look_force(t).norm(), 1) << "nothing to see";
-                }
-            }
-            expect_near(arena.vector(plane_r), force,
-                        force_tolerance(machine, force.lpNorm<Eigen::Infinity>()), who + ", force");
-            expect_near(machine, arena.matrix(), newton, who + ", operator");
-            expect_near(machine, arena.matrix(true), coarse, who + ", couplings of the coarser level");
-            const std::vector<Block> diagonal = arena.diagonal();
-            for (std::size_t i = 0; i < diagonal.size(); ++i) {
-                const auto at = static_cast<Eigen::Index>(3 * i);
-                const Block b = newton.block<3, 3>(at, at);
-                EXPECT_LE((diagonal[i] - b).lpNorm<Eigen::Infinity>(),
-                          block_tolerance(machine, b.lpNorm<Eigen::Infinity>()))
-                    << who << ", diagonal of vertex " << i;
-            }
-            // Energies: a spring's error of length times its force, and there are some hundred.
-            const double energy = step.energy(t, Kind::spring) + step.energy(t, Kind::inertia);
-            const double contact = step.energy(t, Kind::contact);
-            const double part = machine.exact ? 4 * rounding : 64 * rounding;
-            EXPECT_NEAR(machine.runner->solver_scalar(0, scalar_energy), energy, part * (energy + 10)) << who;
-            EXPECT_NEAR(machine.runner->solver_scalar(0, scalar_contact_energy), contact,
-                        part * (contact + 10))
-                << who;
-            if (c.contact) {
-                EXPECT_GT(contact, 0.01) << "nothing to see";
-            }
+        const Vector force = step.force(t);
+        const Matrix newton = step.newton_matrix(t), coarse = step.coarse_matrix(t);
+        expect_near(arena.vector(plane_r), force, force_tolerance(machine, force.lpNorm<Eigen::Infinity>()),
+                    who + ", force");
+        expect_near(machine, arena.matrix(), newton, who + ", operator");
+        expect_near(machine, arena.matrix(true), coarse, who + ", couplings of the coarser level");
+        const std::vector<Block> diagonal = arena.diagonal();
+        for (std::size_t i = 0; i < diagonal.size(); ++i) {
+            const auto at = static_cast<Eigen::Index>(3 * i);
+            const Block b = newton.block<3, 3>(at, at);
+            EXPECT_LE((diagonal[i] - b).lpNorm<Eigen::Infinity>(),
+                      block_tolerance(machine, b.lpNorm<Eigen::Infinity>()))
+                << who << ", diagonal of vertex " << i;
         }
+        // Energies: a spring's error of length times its force, and there are some hundred.
+        const double energy = step.energy(t, Kind::spring) + step.energy(t, Kind::inertia);
+        const double contact = step.energy(t, Kind::contact);
+        const double part = machine.exact ? 4 * rounding : 64 * rounding;
+        EXPECT_NEAR(machine.runner->solver_scalar(0, scalar_energy), energy, part * (energy + 10)) << who;
+        EXPECT_NEAR(machine.runner->solver_scalar(0, scalar_contact_energy), contact, part * (contact + 10))
+            << who;
+        if (c.contact) {
+            EXPECT_GT(contact, 0.01) << "nothing to see";
+        }
+    }
 }
 
 TEST_P(StepOracle, HasTheProductOfTheOperator)
@@ -316,7 +302,7 @@ TEST_P(StepOracle, HasTheProductOfTheOperator)
     const Vector t = bench.step->start();
     const Matrix newton = bench.step->newton_matrix(t);
     for (Machine& machine : machines_of(bench.model)) {
-        std::vector<Call> calls = bench.look(false);
+        std::vector<Call> calls = bench.look();
         append_linear_start(bench.model, 0, 0, calls);
         append_linear_iterations(bench.model, 0, 0, 1, calls);
         bench.run(*machine.runner, calls);
@@ -345,8 +331,16 @@ TEST_P(StepEnd, IsWhereTheEnergyIsLeast)
     options.linear_tolerance = 1e-4;
     const ImplicitStep& step = *bench.step;
     int steps = 0;
-    const Vector least = step.minimum(steps);
+    Vector least = step.minimum(steps);
     ASSERT_LT(steps, 200) << "the oracle does not find it";
+    if (c.contact) {  // once more, with the normal forces that this has
+        oracle::StepInput renewed = step.input();
+        renewed.pressed = step.pressed(least);
+        const Vector before = least;
+        least = ImplicitStep(std::move(renewed)).minimum(steps);
+        ASSERT_LT(steps, 200) << "the oracle does not find it";
+        EXPECT_GT((least - before).lpNorm<Eigen::Infinity>(), 1e-4) << "nothing to see";
+    }
     EXPECT_GT((least - step.start()).lpNorm<Eigen::Infinity>(), 1e-4);
     // A step ends when r . A^-1 r is under 1e-12 of the load, |y - dt v|^2 in the norm of inertia; no node is
     // further off than all of that would move the lightest one. The velocity that is read is a float; and
@@ -371,9 +365,10 @@ TEST_P(StepEnd, IsWhereTheEnergyIsLeast)
                 const Vec3 q = bench.model.positions[bench.model.node(vertex)];
                 start[3 * vertex + k] = double{k == 0 ? q.x : k == 1 ? q.y : q.z};
             }
-        const double bar = machine.exact
-                               ? of_tolerance + of_reading + (c.disc || c.quadratic ? of_rest_lengths : 0)
-                               : of_float;
+        // With contact there are two such ends, one after the other, and the oracle's own stop at 2e-9 m.
+        const double of_ends = c.contact ? 3 * (of_tolerance + 2e-9) : of_tolerance;
+        const double bar =
+            machine.exact ? of_ends + of_reading + (c.disc || c.quadratic ? of_rest_lengths : 0) : of_float;
         EXPECT_LE((found - least).lpNorm<Eigen::Infinity>(), bar) << machine.name;
         EXPECT_LE((place - start - least).lpNorm<Eigen::Infinity>(), bar + rounding) << machine.name;
         if (machine.exact) {

@@ -49,7 +49,7 @@ BAD = [
     ("a tolerance above one", "newton_multigrid.newton_tolerance", 1.5),
     ("too much smoothing", "newton_multigrid.smoothing", 9),
     ("an unknown direction", "newton_multigrid.resists", "compression"),
-    ("colliders of no stiffness", "newton_multigrid.contact_stiffness", 0),
+    ("colliders of a negative stiffness", "newton_multigrid.contact_stiffness", -1),
     ("friction at no speed", "newton_multigrid.friction_speed", 0),
     ("an option of another solver", "newton_multigrid.max_iterations", 5),
     ("a tolerance of zero", "paper.tolerance", 0),

@@ -342,7 +342,9 @@ struct NewtonMultigridOptions {
     std::uint32_t smoothing = 1;    ///< 1 to 8: degree of the smoother before and after each level
     Preconditioner preconditioner = Preconditioner::multigrid;
     Resists resists = Resists::tension;  ///< of all constraints
-    double contact_stiffness = 1e5;      ///< N/m, above 0 to 1e9: of a node against a collider
+    /// N/m, 0 to 1e9: of a node against a collider; 0: a hundred times its mass over the step squared. It
+    /// only corrects the normal force, which each node remembers from step to step.
+    double contact_stiffness = 0;
     /// m/s, above 0 to 1: below this speed of sliding, friction grows linearly with it; Coulomb's law
     /// regularised as by Li et al. 2020, Incremental Potential Contact, section 5.
     double friction_speed = 1e-3;

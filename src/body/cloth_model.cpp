@@ -110,6 +110,7 @@ ClothModel::ClothModel(const Cloth& cloth, const Scene& scene)
     parameters.lift = scene.air.lift;
     parameters.damping = cloth.damping;
     parameters.thickness = cloth.thickness;
+    meets_colliders = !scene.colliders.empty();
 
     const bool rows = uses_solver(method) && solver == Solver::paper;  // which number springs
     const bool stages = integrator == Integrator::explicit_euler || integrator == Integrator::runge_kutta_4;

@@ -180,6 +180,7 @@ public:
     Ragged<Neighbour> neighbours;
     /// Some have a scale, or bending, of their own. A sheet with such springs is stepped as a mesh.
     bool graded = false;
+    bool meets_colliders = false;  ///< the scene has some
     /// At most what the largest eigenvalue of the solver's operator is against its own diagonal blocks: a
     /// term that couples n nodes has none beyond n, and a spring couples two.
     double spectrum_end = 2.5;

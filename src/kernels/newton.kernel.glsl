@@ -38,40 +38,57 @@ KERNEL SpringShare spring_share(LimitCurve curve, vec3 start, vec3 moved, real r
     return share;
 }
 
-// Contact of a node with the solid parts of the scene. The energy 1/2 k d^2 of the depth d, and friction as in
-// Li et al., "Incremental Potential Contact", 2020: the normal force of the last step times the coefficient, growing
-// linearly with the tangential displacement up to `slip`, constant beyond.
+// Contact of a node with the solid parts of the scene: an augmented Lagrangian, as the springs' limits are one. A node that
+// touches a collider remembers the normal force p of the last step, and a soft stiffness k only makes it right:
+//   E = 1/2 k max(0, p / k + depth)^2,   p' = k max(0, p / k + depth)
+// So a node at rest lies on the surface, whatever k, and k can be so small that Newton's method is not kept busy by nodes
+// that come and go. Where that lets a node too deep in, as what is pressed on by a whole cloth, k grows.
+// Source: Hestenes, "Multiplier and gradient methods", 1969.
+// Friction is that of Li et al., "Incremental Potential Contact", 2020: the normal force of the last step times the
+// coefficient, growing linearly with the tangential displacement up to `slip`, constant beyond.
 struct Contact
 {
     vec3 force;         // N
     Symmetric stiffness;  // N/m
     real energy;        // J
+    real press, touched;  // N, of the collider that presses most, and its number from 1 on
+    real depth;         // m, in that one
 };
 
-// The first look of a step, at the displacement dt v, takes a node that inertia would carry into a collider for touching
-// it already: as stiff as contact, and drawn to the surface. Newton's first step then ends on the surface, and not as deep
-// inside as nothing but inertia would go.
+KERNEL real contact_stiffness_of(int o)
+{
+    if (!contact_is_by_mass()) return contact_stiffness();
+    return contact_stiffness() * load(plane_mass, o) * (load(plane_firm, o) + 1.0f);
+}
+
+KERNEL mask is_number(real a, int k)
+{
+    return both(a > real(float(k)) - 0.5f, real(float(k)) + 0.5f > a);
+}
+
 KERNEL Contact contact_at(int o, vec3 q, vec3 t)
 {
     Contact c;
     c.force = vec3(real(0.0f), real(0.0f), real(0.0f));
     c.stiffness = symmetric_diagonal(real(0.0f));
-    c.energy = real(0.0f);
+    c.energy = c.press = c.touched = c.depth = real(0.0f);
     if (collider_count() == 0) return c;
+    real k_node = contact_stiffness_of(o), touched = load(plane_touched, o);
+    real before = load(plane_press, o) * reciprocal(choose(k_node > 0.0f, k_node, real(1.0f)));
     for (int k = 0; k < collider_count(); ++k) {
         vec4 contact = collider_gap(collider(k), q + t);
         vec3 n = xyz(contact);
-        real depth = largest(thickness() - contact.w, real(0.0f));
-        real stiffness = choose(depth > 0.0f, contact_stiffness(), real(0.0f));
-        c.force = c.force + n * (stiffness * depth);
-        if (is_first_look()) {
-            vec4 aimed = collider_gap(collider(k), q + load3(plane_y, o));
-            mask meets = both(thickness() > aimed.w, contact.w > thickness());
-            stiffness = choose(meets, contact_stiffness(), stiffness);
-            c.force = c.force + n * choose(meets, contact_stiffness() * (thickness() - contact.w), real(0.0f));
-        }
+        real inside = thickness() - contact.w;
+        real depth = largest(inside + choose(is_number(touched, k + 1), before, real(0.0f)), real(0.0f));
+        real stiffness = choose(depth > 0.0f, k_node, real(0.0f));
+        real press = stiffness * depth;
+        mask most = press > c.press;
+        c.press = choose(most, press, c.press);
+        c.touched = choose(most, real(float(k + 1)), c.touched);
+        c.depth = choose(most, inside, c.depth);
+        c.force = c.force + n * press;
         c.stiffness = plus(c.stiffness, symmetric_about(n, stiffness, real(0.0f)));
-        c.energy = c.energy + 0.5f * contact_stiffness() * depth * depth;
+        c.energy = c.energy + 0.5f * press * depth;
     }
     vec3 n = load3(plane_slide, o);
     real grip = load(plane_grip, o);
@@ -83,15 +100,51 @@ KERNEL Contact contact_at(int o, vec3 q, vec3 t)
     real per_length = choose(length > slip(), reciprocal(largest(length, slip())), sticking);
     c.force = c.force - sliding * (grip * per_length);
     c.stiffness = plus(c.stiffness, symmetric_about(n, real(0.0f), grip * per_length));
+    // A node that its inertia takes on against friction meets none that grows with its way. One that friction will stop is
+    // slowed down by the secant, which does not overshoot.
+    vec3 ahead = load3(plane_y, o) - load3(plane_drag, o);
+    ahead = ahead - n * dot3(ahead, n);
+    real inertia = load(plane_mass, o);
+    mask slides = both(length > slip(), inertia * inertia * dot3(ahead, ahead) > grip * grip);
+    c.stiffness = plus(c.stiffness, symmetric_about(sliding * per_length, choose(slides, real(0.0f) - grip * per_length, real(0.0f)), real(0.0f)));
     c.energy = c.energy + grip * choose(length > slip(), length - 0.5f * slip(), 0.5f * length2 * sticking);
     return c;
 }
 
-// The start of a step. Friction knows the normal force that the last step ended with: where the node was, carried on
-// with the surface.
+// What friction goes by: the collider that presses most, and how much.
+struct Grip
+{
+    vec3 normal, drag;  // m: the way of the surface in this step
+    real press, grip;   // N
+};
+
+KERNEL Grip no_grip()
+{
+    Grip g;
+    g.normal = g.drag = vec3(real(0.0f), real(0.0f), real(0.0f));
+    g.press = g.grip = real(0.0f);
+    return g;
+}
+KERNEL Grip with_collider(Grip g, Collider by, vec3 normal, vec3 carried, real press)
+{
+    mask more = press > g.press;
+    g.press = choose(more, press, g.press);
+    g.normal = choose(more, normal, g.normal);
+    g.drag = choose(more, carried, g.drag);
+    g.grip = choose(more, by.friction * press, g.grip);
+    return g;
+}
+KERNEL void leave_grip(int o, Grip g)
+{
+    mask is_free = load(plane_mass, o) > 0.0f;
+    store3(plane_slide, o, g.normal);
+    store3(plane_drag, o, g.drag);
+    store(plane_grip, o, choose(is_free, g.grip, real(0.0f)));
+}
+// The start of a step. Friction knows the normal force that the last step ended with; of a node that touches a collider
+// without having been found there by a step, what its depth makes of it.
 KERNEL void step_begin(int o)
 {
-    vec3 zero = vec3(real(0.0f), real(0.0f), real(0.0f));
     vec3 q = node_position(o), v = node_velocity(o);
     real w = node_inverse_mass(o);
     mask is_free = w > 0.0f;
@@ -112,21 +165,49 @@ KERNEL void step_begin(int o)
     sums[0] = sums[0] + mass * dot3(ahead, ahead);
 
     if (collider_count() == 0) return;  // nobody asks for friction
-    vec3 normal = zero, drag = zero;
-    real deepest = real(0.0f), grip = real(0.0f);
+    Grip g = no_grip();
+    real touched = load(plane_touched, o);
     for (int k = 0; k < collider_count(); ++k) {
         vec3 carried = collider_surface_velocity(collider(k), q) * step_length();
         vec4 contact = collider_gap(collider(k), q + carried);
-        real depth = thickness() - contact.w;
-        mask deeper = both(depth > deepest, is_free);
-        deepest = choose(deeper, depth, deepest);
-        normal = choose(deeper, xyz(contact), normal);
-        drag = choose(deeper, carried, drag);
-        grip = choose(deeper, collider(k).friction * contact_stiffness() * depth, grip);
+        real found = contact_stiffness_of(o) * largest(thickness() - contact.w, real(0.0f));
+        found = choose(touched > 0.0f, choose(is_number(touched, k + 1), load(plane_press, o), real(0.0f)), found);
+        g = with_collider(g, collider(k), xyz(contact), carried, found);
     }
-    store3(plane_slide, o, normal);
-    store3(plane_drag, o, drag);
-    store(plane_grip, o, grip);
+    leave_grip(o, g);
+}
+
+// The second half of a step's iterations goes by the normal forces that the first half has found: so a node comes to lie
+// on the surface and not a hundredth of its way beneath it, and friction is that of this step. The sum, J, says whether
+// there is a difference, by what it would move the nodes' masses.
+KERNEL void contact_change(int o)
+{
+    Contact contact = contact_at(o, load3(plane_q, o), load3(plane_t, o));
+    real mass = load(plane_mass, o), change = contact.press - load(plane_press, o);
+    real moved = change * reciprocal(choose(mass > 0.0f, mass, real(1.0f)));
+    sums[0] = sums[0] + mass * moved * moved;
+}
+// How firm the contact of a node is to be: a depth of more than a tenth of a millimetre makes it firmer, one of less lets
+// it be softer from step to step.
+KERNEL real firm_for(real firm, real depth)
+{
+    real target = real(1e-4f), most = real(100.0f);
+    real grown = (firm + 1.0f) * largest(depth * real(1e4f), real(1.0f));
+    return choose(depth > target, choose(grown > most, most, grown) - 1.0f, firm);
+}
+KERNEL void contact_keep(int o)
+{
+    vec3 q = load3(plane_q, o), t = load3(plane_t, o);
+    Contact contact = contact_at(o, q, t);
+    Grip g = no_grip();
+    for (int k = 0; k < collider_count(); ++k)
+        g = with_collider(g, collider(k), xyz(collider_gap(collider(k), q + t)),
+                          collider_surface_velocity(collider(k), q) * step_length(),
+                          choose(is_number(contact.touched, k + 1), contact.press, real(0.0f)));
+    store(plane_press, o, contact.press);
+    store(plane_touched, o, contact.touched);
+    store(plane_firm, o, firm_for(load(plane_firm, o), contact.depth));
+    leave_grip(o, g);
 }
 
 // Newton's step, whole, and part of it again when the line search refuses it.
@@ -148,6 +229,10 @@ KERNEL void step_end(int o)
     vec3 t = load3(plane_t, o);
     node_end(o, load3(plane_q, o) + t, settled_velocity(t * inverse_step()));
     vec3 inertia = (t - load3(plane_y, o)) * load(plane_mass, o);
-    sums[0] = sums[0] + dot3(contact_at(o, load3(plane_q, o), t).force - inertia, t);
+    Contact contact = contact_at(o, load3(plane_q, o), t);
+    store(plane_press, o, contact.press);
+    store(plane_touched, o, contact.touched);
+    store(plane_firm, o, firm_for(load(plane_firm, o) * 0.5f, contact.depth));
+    sums[0] = sums[0] + dot3(contact.force - inertia, t);
     sums[1] = sums[1] + load(plane_active, o);
 }

@@ -6,7 +6,7 @@ const int plane_z = 3;         // correction, and its second copy, m
 const int plane_w = 6;
 const int plane_s = 9;         // residual of the correction, N
 const int plane_mass = 12;     // m / dt^2, N/m; 0 for a pinned node. This and the next two: of the cloth alone
-const int plane_grip = 13;     // friction: force, N
+const int plane_grip = 13;     // friction: the greatest force, N
 const int plane_active = 14;   // how many active constraints a node holds
 // The operator, which the CPU keeps together node by node (SolverKernels::at):
 const int plane_block = 15;    // couplings to the four forward neighbours of a sheet: B of -B at (i, j), N/m
@@ -23,16 +23,21 @@ const int plane_p = 66;        // direction of conjugate gradients, and what the
 const int plane_ap = 69;
 const int plane_slide = 72;    // friction: normal, displacement of the surface (m)
 const int plane_drag = 75;
-const int node_planes = 78;
+// Kept from step to step: the collider that a node touches, by its number from 1 on; the normal force, N; and how many
+// times as stiff as others the node's contact is, less 1.
+const int plane_touched = 78;
+const int plane_press = 79;
+const int plane_firm = 80;
+const int node_planes = 81;
 
 // Of a sheet's node, one for each of its six forward springs; of a mesh they lie by spring.
-const int plane_scale = 78;    // multiplies stiffness; 0 where the sheet has no such spring
-const int plane_mark = 84;     // of ACAD: 1 where the spring is a limit in this step
-const int sheet_planes = 90;
+const int plane_scale = 81;    // multiplies stiffness; 0 where the sheet has no such spring
+const int plane_mark = 87;     // of ACAD: 1 where the spring is a limit in this step
+const int sheet_planes = 93;
 // Where bend springs are constraints: their blocks, and couplings along rows and columns with them folded in.
-const int plane_bend = 90;
-const int plane_fold = 102;
-const int bent_sheet_planes = 114;
+const int plane_bend = 93;
+const int plane_fold = 105;
+const int bent_sheet_planes = 117;
 
 // Of a mesh's spring; a coupling of a coarser level has the block alone. Row sums of nodes come after the blocks.
 const int edge_block = 0;      // N/m
@@ -88,6 +93,7 @@ const int sum_linear_residual2 = 4; // r . r
 const int sum_rho = 5;              // r . z
 const int sum_load = 6;             // J
 const int sum_lost = 7;             // J
+const int sum_contact_change = 7;   // J, before that
 const int sum_active = 8;           // constraints
 const int sum_marked = 9;           // springs that ACAD has marked
 const int sum_slots = 10;

@@ -116,6 +116,18 @@ KERNEL void newton_check()
     if (done) set_scalar(scalar_newton_done, real(1.0f));
 }
 
+// Between the halves of a step's iterations: normal forces are not what they were taken for, so there is something left.
+KERNEL void contact_check()
+{
+    if (total(sum_contact_change) > newton_tolerance() * newton_tolerance() * scalar(scalar_load))
+        set_scalar(scalar_newton_done, real(0.0f));
+}
+KERNEL void contact_resume()
+{
+    set_scalar(scalar_energy, total(sum_spring_energy) + total(sum_node_energy));
+    set_scalar(scalar_contact_energy, total(sum_contact_energy));
+}
+
 KERNEL void solve_end()
 {
     if (scalar(scalar_idle) > 0.0f) {

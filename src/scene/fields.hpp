@@ -365,7 +365,7 @@ void fields(auto& at, Is<NewtonMultigridOptions> auto& solver)
     at.number("smoothing", solver.smoothing, {1, 8}, "");
     at.choice("preconditioner", solver.preconditioner, preconditioner_names);
     at.choice("resists", solver.resists, resists_names);
-    at.number("contact_stiffness", solver.contact_stiffness, above(0, 1e9), "N/m");
+    at.number("contact_stiffness", solver.contact_stiffness, {0, 1e9}, "N/m");
     at.number("friction_speed", solver.friction_speed, above(0, 1), "m/s");
 }
 

@@ -25,9 +25,12 @@ public:
     void step()
     {
         add(Pass::step_begin);
-        evaluate(Guard::none, first_look);
+        evaluate(Guard::none);
         add(Pass::solve_begin);
-        for (std::uint32_t k = 1; k <= newton_most(); ++k) newton_iteration(k == newton_most());
+        for (std::uint32_t k = 1; k <= newton_most(); ++k) {
+            newton_iteration(k == newton_most());
+            if (cloth_.meets_colliders && k < newton_most() && k == (newton_most() + 1) / 2) renew_contact();
+        }
         add(Pass::step_end);
         add(Pass::solve_end);
     }
@@ -53,7 +56,7 @@ public:
     void linear_system()
     {
         add(Pass::step_begin);
-        evaluate(Guard::none, first_look);
+        evaluate(Guard::none);
         add(Pass::solve_begin);
     }
 
@@ -101,6 +104,16 @@ private:
     {
         if (on_mesh_) add(Pass::mesh_springs, guard);
         add(on_mesh_ ? Pass::mesh_gather : Pass::sheet_gather, guard, 0, look);
+    }
+
+    /// Normal forces as they are now, for the rest of the step.
+    void renew_contact()
+    {
+        add(Pass::contact_change);
+        add(Pass::contact_check);
+        add(Pass::contact_keep, Guard::newton);
+        evaluate(Guard::newton);
+        add(Pass::contact_resume, Guard::newton);
     }
 
     void coarsen()

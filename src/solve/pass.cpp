@@ -49,7 +49,8 @@ SumSlots sum_slots_of(Pass pass)
         case Pass::mesh_limits:
         case Pass::sheet_limits: return {sum_active, 1};
         case Pass::sheet_marks: return {sum_active, 2};  // and marked springs
-        case Pass::step_end: return {sum_lost, 2};       // and active constraints
+        case Pass::contact_change: return {sum_contact_change, 1};
+        case Pass::step_end: return {sum_lost, 2};  // and active constraints
         case Pass::paper_springs: return {sum_active, 1};
         case Pass::paper_apply: return {sum_curvature, 1};
         case Pass::paper_system: return {sum_linear_residual2, 1};

@@ -81,7 +81,7 @@ constexpr std::uint32_t detail_of(std::uint32_t source, std::uint32_t relaxation
 }
 
 /// Details of sheet_gather: the first look of a step, see contact_at; the last one, for the energy alone.
-constexpr std::uint32_t first_look = 1, last_look = 2;
+constexpr std::uint32_t last_look = 1;
 
 /// Sums that a pass leaves in parts.
 struct SumSlots {

@@ -64,51 +64,81 @@ void ImplicitStep::add_inertia(const std::vector<double>& masses)
     }
 }
 
+std::function<double(const Vector&)> ImplicitStep::depth_of(int node, std::size_t k) const
+{
+    const Pressed& pressed = input_.pressed[static_cast<std::size_t>(node)];
+    const bool here = pressed.collider == static_cast<int>(k);
+    const double before = here ? pressed.force / input_.scene.newton_multigrid.contact_stiffness : 0;
+    return [keeps = input_.cloth.thickness + before, q = at(node),
+            collider = input_.colliders[k]](const Vector& moved) {
+        return static_cast<double>(keeps - long_gap(collider, long_sum(q, moved)));
+    };
+}
+
+std::vector<Pressed> ImplicitStep::pressed(const Vector& t) const
+{
+    std::vector<Pressed> found(input_.position.size());
+    for (int i = 0; i < size() / 3; ++i)
+        for (std::size_t k = 0; k < input_.colliders.size(); ++k) {
+            const Point moved = t.segment<3>(3 * i);
+            const double force =
+                input_.scene.newton_multigrid.contact_stiffness * std::max(0.0, depth_of(i, k)(moved));
+            Pressed& most = found[static_cast<std::size_t>(i)];
+            if (is_free(3 * i) && force > most.force)
+                most = {static_cast<int>(k), force, normal_of(input_.colliders[k], at(i) + moved)};
+        }
+    return found;
+}
+
+Point ImplicitStep::carried(int node, const PlacedCollider& collider) const
+{
+    const Point arm = at(node) - point_of(collider.centre);
+    return input_.dt * (point_of(collider.velocity) + point_of(collider.spin).cross(arm));
+}
+
 void ImplicitStep::add_contact()
 {
     const NewtonMultigridOptions& options = input_.scene.newton_multigrid;
-    const double stiffness = options.contact_stiffness, thickness = input_.cloth.thickness;
+    const double stiffness = options.contact_stiffness;
     const double slip = options.friction_speed * input_.dt;
+    const bool is_new = input_.pressed.empty();
+    if (is_new) input_.pressed.resize(input_.position.size());
     for (int i = 0; i < size() / 3; ++i) {
         if (input_.is_pinned[static_cast<std::size_t>(i)]) continue;
         const Point q = at(i);
-        for (const PlacedCollider& collider : input_.colliders) {
-            corners_.emplace_back([=](const Vector& t) {
-                return std::abs(thickness - gap_of(collider, q + t.segment<3>(3 * i)));
-            });
+        Pressed most;
+        for (std::size_t k = 0; k < input_.colliders.size(); ++k) {
+            const PlacedCollider& collider = input_.colliders[k];
+            const auto depth = depth_of(i, k);
+            corners_.emplace_back([=](const Vector& t) { return std::abs(depth(t.segment<3>(3 * i))); });
             Term term;
             term.kind = Kind::contact;
             term.nodes = {i};
-            const auto depth_at = [=](const Vector& moved) {
-                return std::max(0.0L, thickness - long_gap(collider, long_sum(q, moved)));
-            };
             term.energy = [=](const Vector& moved) {
-                return static_cast<double>(stiffness / 2 * depth_at(moved) * depth_at(moved));
+                const double e = std::max(0.0, depth(moved));
+                return stiffness / 2 * e * e;
             };
             // Without the curvature of the surface.
             term.newton = [=](const Vector& moved) -> Matrix {
-                const Point n = normal_of(collider, q + moved);
-                return (depth_at(moved) > 0 ? stiffness : 0) * n * n.transpose();
+                const Point normal = normal_of(collider, q + moved);
+                return (depth(moved) > 0 ? stiffness : 0) * normal * normal.transpose();
             };
             terms_.push_back(std::move(term));
+            // Where nothing is known of the step before, by the depth at the start, carried on with the
+            // surface.
+            const Point with = carried(i, collider);
+            const double force = stiffness * depth(with);
+            if (is_new && force > most.force)
+                most = {static_cast<int>(k), force, normal_of(collider, q + with)};
         }
-        // Friction: Coulomb's, with the normal force that the last step ended with, and the collider that it
-        // was of: where the node was, carried on with the surface.
-        double force = 0, deepest = 0;
-        Point n = Point::Zero(), carried = Point::Zero();
-        for (const PlacedCollider& collider : input_.colliders) {
-            const Point arm = q - point_of(collider.centre);
-            const Point with = input_.dt * (point_of(collider.velocity) + point_of(collider.spin).cross(arm));
-            const double depth = thickness - gap_of(collider, q + with);
-            if (depth <= deepest) continue;
-            deepest = depth;
-            force = collider.friction * stiffness * depth;
-            n = normal_of(collider, q + with);
-            carried = with;
-        }
-        if (deepest == 0) continue;
+        // Friction: Coulomb's, with that normal force.
+        if (!is_new) most = input_.pressed[static_cast<std::size_t>(i)];
+        if (most.collider < 0) continue;
+        const PlacedCollider& collider = input_.colliders[static_cast<std::size_t>(most.collider)];
+        const double force = collider.friction * most.force;
+        const Point n = most.normal, with = carried(i, collider);
         const auto slid = [=](const Vector& moved) -> Point {
-            const Point r = Point(moved) - carried;
+            const Point r = Point(moved) - with;
             return r - n * n.dot(r);
         };
         Term term;
@@ -118,10 +148,16 @@ void ImplicitStep::add_contact()
             const double way = slid(moved).norm();
             return force * (way > slip ? way - slip / 2 : way * way / (2 * slip));
         };
-        // Beyond `slip` it takes the force over the way for the stiffness, in every direction of the surface.
+        // Beyond `slip` it takes the force over the way for the stiffness, in every direction of the surface;
+        // but none along the way where inertia is more than friction.
+        const double inertia = masses_[static_cast<std::size_t>(i)] / (input_.dt * input_.dt);
+        const bool slides = inertia * slid(aim_.segment<3>(3 * i)).norm() > force;
         term.newton = [=](const Vector& moved) -> Matrix {
-            const double way = slid(moved).norm();
-            return force / std::max(way, slip) * (Block::Identity() - n * n.transpose());
+            const Point r = slid(moved);
+            const double way = r.norm();
+            Block block = Block::Identity() - n * n.transpose();
+            if (slides && way > slip) block -= r * r.transpose() / (way * way);
+            return force / std::max(way, slip) * block;
         };
         terms_.push_back(std::move(term));
     }
@@ -214,36 +250,6 @@ double ImplicitStep::nearest_corner(const Vector& t) const
     double nearest = std::numeric_limits<double>::infinity();
     for (const auto& corner : corners_) nearest = std::min(nearest, corner(t));
     return nearest;
-}
-
-Vector ImplicitStep::first_look_force(const Vector& t) const
-{
-    Vector force = Vector::Zero(size());
-    for (int i = 0; i < size() / 3; ++i)
-        for (const PlacedCollider& collider : input_.colliders) {
-            const Point x = at(i) + t.segment<3>(3 * i), aimed = at(i) + aim_.segment<3>(3 * i);
-            const double gap = gap_of(collider, x), thickness = input_.cloth.thickness;
-            if (!is_free(3 * i) || gap_of(collider, aimed) >= thickness || gap <= thickness) continue;
-            force.segment<3>(3 * i) +=
-                input_.scene.newton_multigrid.contact_stiffness * (thickness - gap) * normal_of(collider, x);
-        }
-    return force;
-}
-
-Matrix ImplicitStep::first_look_matrix(const Vector& t) const
-{
-    Matrix matrix = Matrix::Zero(size(), size());
-    for (int i = 0; i < size() / 3; ++i)
-        for (const PlacedCollider& collider : input_.colliders) {
-            const Point x = at(i) + t.segment<3>(3 * i), aimed = at(i) + aim_.segment<3>(3 * i);
-            const double thickness = input_.cloth.thickness;
-            if (!is_free(3 * i) || gap_of(collider, aimed) >= thickness || gap_of(collider, x) <= thickness)
-                continue;
-            const Point n = normal_of(collider, x);
-            matrix.block<3, 3>(3 * i, 3 * i) +=
-                input_.scene.newton_multigrid.contact_stiffness * n * n.transpose();
-        }
-    return matrix;
 }
 
 Vector ImplicitStep::minimum(int& steps) const

@@ -22,6 +22,13 @@ using Block = Eigen::Matrix3d;
 
 inline Point point_of(Vec3d a) { return {a.x, a.y, a.z}; }
 
+/// What a node's contact with a collider is known to be.
+struct Pressed {
+    int collider = -1;
+    double force = 0;  ///< N
+    Point normal = Point::Zero();
+};
+
 /// What a step starts from: lists by vertex, of a sheet by node, row by row.
 struct StepInput {
     Cloth cloth;
@@ -33,6 +40,7 @@ struct StepInput {
     std::vector<bool> is_pinned = {};
     std::vector<Point> destination = {};  ///< m: where a pinned node is at the end of the step
     std::vector<PlacedCollider> colliders = {};
+    std::vector<Pressed> pressed = {};  ///< empty where no step has been made
 };
 
 enum class Kind { spring, inertia, contact };  ///< contact: and friction
@@ -74,10 +82,9 @@ public:
     /// mean something only where that is more than they reach.
     double nearest_corner(const Vector& t) const;
 
-    /// What the first look at a step adds, which is not in E: a node that inertia would carry into a collider
-    /// counts as touching it, and is drawn to its surface.
-    Vector first_look_force(const Vector& t) const;
-    Matrix first_look_matrix(const Vector& t) const;
+    /// By what each node is pressed at the displacement t.
+    std::vector<Pressed> pressed(const Vector& t) const;
+    const StepInput& input() const { return input_; }
 
     /// The displacement with the least E, by Newton's method with dense factorisations. `steps` is how many
     /// it took; it gives up after 200.
@@ -93,6 +100,11 @@ private:
     void add_curvature(std::size_t triangle);
     void add_inertia(const std::vector<double>& masses);
     void add_contact();
+    /// m, of the node's displacement: how deep it is in a collider, and what it is pressed by already makes
+    /// of that.
+    std::function<double(const Vector& moved)> depth_of(int node, std::size_t collider) const;
+    /// m: the way of a collider's surface under a node
+    Point carried(int node, const PlacedCollider& collider) const;
     Point at(int node) const { return input_.position[static_cast<std::size_t>(node)]; }
     Matrix sum_of(const Vector& t, const std::function<Matrix(const Term&, const Vector&)>& matrix) const;
 

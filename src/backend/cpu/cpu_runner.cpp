@@ -211,6 +211,7 @@ public:
     {
         cloths_[cloth].plain.write(positions, velocities);
         cloths_[cloth].records.forget();
+        cloths_[cloth].solver.forget(cloths_[cloth].plain.model);
     }
     void take_mass(std::uint32_t cloth, std::uint32_t node) override
     {

@@ -25,7 +25,9 @@ struct SolverConstants {
     bool is_graded = false;    ///< springs of a mesh have numbers of their own
     bool exact_bend = false;   ///< bend springs are stiff: the operator has them as they are, not folded
     Number rest_lengths[5]{};  ///< m, of a sheet
-    Number contact_stiffness{}, slip{};
+    bool contact_is_by_mass = false;
+    Number contact_stiffness{};  ///< N/m; by mass: of m / dt^2
+    Number slip{};               ///< m
     // ACAD, by length squared over rest length squared: see kernels/acad.kernel.glsl.
     bool is_acad = false, acad_has_memory = false;
     Number acad_above2{}, acad_below2{}, acad_held_above2{}, acad_held_below2{}, acad_near_above2{},

@@ -194,6 +194,7 @@ struct SolverKernels {
     bool has_bend() const { return constants.has[2]; }
     bool exact_bend() const { return is_cloth_ && constants.exact_bend && constants.has[2]; }
     real contact_stiffness() const { return spread(constants.contact_stiffness); }
+    bool contact_is_by_mass() const { return constants.contact_is_by_mass; }
     real slip() const { return spread(constants.slip); }
     real thickness() const { return spread(constants.thickness); }
     real decay() const { return spread(constants.decay); }
@@ -242,7 +243,6 @@ struct SolverKernels {
         Lanes<T>::store(context.next_velocity.z + o, v.z);
     }
 
-    bool is_first_look() const { return is_cloth_ && detail_ == first_look; }
     bool is_last_look() const { return detail_ == last_look; }
     bool is_cloth() const { return is_cloth_; }
     bool is_acad() const { return constants.is_acad; }
@@ -388,6 +388,8 @@ struct SolverKernels {
             case Pass::linear_update: return nodes<&K::linear_update>(pass, begin, end);
             case Pass::newton_move: return nodes<&K::newton_move>(pass, begin, end);
             case Pass::search_move: return nodes<&K::search_move>(pass, begin, end);
+            case Pass::contact_change: return nodes<&K::contact_change>(pass, begin, end);
+            case Pass::contact_keep: return nodes<&K::contact_keep>(pass, begin, end);
             case Pass::step_end: return nodes<&K::step_end>(pass, begin, end);
             case Pass::sheet_limits: return limits(pass, begin, end);
             case Pass::sheet_marks: return nodes<&K::sheet_marks>(pass, begin, end);
@@ -418,6 +420,8 @@ struct SolverKernels {
             case Pass::search_begin: return search_begin();
             case Pass::search_check: return search_check();
             case Pass::newton_check: return newton_check();
+            case Pass::contact_check: return contact_check();
+            case Pass::contact_resume: return contact_resume();
             case Pass::acad_check: return acad_check();
             case Pass::solve_end: return solve_end();
             case Pass::paper_count: return paper_count();

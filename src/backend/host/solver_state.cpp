@@ -66,7 +66,15 @@ SolverConstants<T> make_solver_constants(const ClothModel& model, double step_le
     }
     std::copy(std::begin(step.rest_lengths), std::end(step.rest_lengths), c.rest_lengths);
     const NewtonMultigridOptions& newton = model.newton;
-    c.contact_stiffness = number(newton.contact_stiffness);
+    // Of the inertia m / dt^2 of a node: 100 keeps what a step presses in to a hundredth of its way, and lets
+    // a node that lies still stay in touch when Newton's method moves it by a hundredth of g dt^2.
+    constexpr double by_mass = 100;
+    // A step of ACAD remembers nothing of contact, and has it by stiffness alone.
+    constexpr double of_acad = 1e5;  // N/m
+    c.contact_is_by_mass = !(newton.contact_stiffness > 0) && !model.corrects_steps();
+    c.contact_stiffness = number(newton.contact_stiffness > 0 ? newton.contact_stiffness
+                                 : c.contact_is_by_mass       ? by_mass
+                                                              : of_acad);
     c.slip = number(newton.friction_speed * step_length);
     c.linear_tolerance = number(newton.linear_tolerance);
     c.newton_tolerance = number(newton.newton_tolerance);
@@ -112,6 +120,18 @@ void set_first_numbers(const ClothModel& model, const Hierarchy& hierarchy, T* a
                                                   static_cast<std::int32_t>(i % model.sheet->columns))) =
                 T(1);
         });
+}
+
+std::vector<ArenaRange> kept_numbers(const ClothModel& model, const Hierarchy& hierarchy)
+{
+    if (hierarchy.empty() || model.solver == Solver::paper) return {};
+    const SolverLevel& cloth = hierarchy.levels.front();
+    const auto size = static_cast<std::size_t>(cloth.size);
+    const auto planes = [&](int first, int count) {
+        return ArenaRange{static_cast<std::size_t>(cloth.base) + static_cast<std::size_t>(first) * size,
+                          static_cast<std::size_t>(count) * size};
+    };
+    return {planes(plane_touched, plane_firm + 1 - plane_touched)};
 }
 
 namespace {
@@ -169,6 +189,13 @@ SolverState<T>::SolverState(const ClothModel& model, const Hierarchy& hierarchy)
     mass_ = AlignedArray<T>(
         NodeLayout(static_cast<std::size_t>(cloth.rows), static_cast<std::size_t>(cloth.columns)).size);
     for (std::size_t i = 0; i < model.node_count(); ++i) take_mass(model, i);
+}
+
+template <class T>
+void SolverState<T>::forget(const ClothModel& model)
+{
+    for (const ArenaRange& kept : kept_numbers(model, *hierarchy_))
+        std::fill_n(arena_.data() + kept.first, kept.count, T(0));
 }
 
 template <class T>

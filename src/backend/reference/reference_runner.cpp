@@ -62,6 +62,7 @@ public:
                std::span<const Vec3> velocities) override
     {
         cloths_[cloth].write(positions, velocities);
+        solvers_[cloth].forget(cloths_[cloth].model);
     }
     void take_mass(std::uint32_t cloth, std::uint32_t node) override
     {

@@ -159,6 +159,18 @@ constexpr std::uint32_t search_check[] = {
 constexpr std::uint32_t newton_check[] = {
 #include "shaders/newton_check.comp.inc"
 };
+constexpr std::uint32_t contact_change[] = {
+#include "shaders/contact_change.comp.inc"
+};
+constexpr std::uint32_t contact_check[] = {
+#include "shaders/contact_check.comp.inc"
+};
+constexpr std::uint32_t contact_keep[] = {
+#include "shaders/contact_keep.comp.inc"
+};
+constexpr std::uint32_t contact_resume[] = {
+#include "shaders/contact_resume.comp.inc"
+};
 constexpr std::uint32_t step_end[] = {
 #include "shaders/step_end.comp.inc"
 };

@@ -35,7 +35,7 @@ struct SolverBlock {
     float relaxations[SolverConstants<float>::most_relaxations]{};
     float tolerances[4]{};
     Float4 acad_above_below, acad_near;
-    std::uint32_t has_damping = 0, exact_bend = 0, is_graded = 0, padding_before_has = 0;
+    std::uint32_t has_damping = 0, exact_bend = 0, is_graded = 0, contact_is_by_mass = 0;
     std::uint32_t has[4]{};
     std::int32_t curve_kinds[4]{};
     std::int32_t bottom_base = 0, part_stride = 0, padding[2]{};
@@ -156,6 +156,7 @@ void SolverBuffers::set_constants(double step_length)
     block.has_damping = c.has_damping ? 1 : 0;
     block.exact_bend = c.exact_bend ? 1 : 0;
     block.is_graded = c.is_graded ? 1 : 0;
+    block.contact_is_by_mass = c.contact_is_by_mass ? 1 : 0;
     block.bottom_base = hierarchy.bottom_base;
     const SumParts sum_parts(*model_, hierarchy);
     block.part_stride = sum_parts.stride;
@@ -168,6 +169,14 @@ void SolverBuffers::set_constants(double step_length)
 void SolverBuffers::record_scalar_copy(const vk::raii::CommandBuffer& commands) const
 {
     commands.copyBuffer(*scalars_, *scalar_copy_, vk::BufferCopy(0, 0, solver_scalar_count * sizeof(float)));
+}
+
+void SolverBuffers::forget(const Device& device) const
+{
+    for (const ArenaRange& kept : kept_numbers(*model_, model_->hierarchy)) {
+        const std::vector<float> zeros(kept.count);
+        device.write(arena_, zeros.data(), kept.count * sizeof(float), kept.first * sizeof(float));
+    }
 }
 
 bool SolverBuffers::skips(Guard guard) const { return scalar(static_cast<std::size_t>(guard)) != 0; }

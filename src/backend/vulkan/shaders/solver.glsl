@@ -20,14 +20,14 @@ struct SolverLevel
 // As SolverBlock of solver_buffers.cpp.
 layout(set = 0, binding = 18, std140) uniform Solver
 {
-    vec4 step_contact;       // s, 1/s, N/m (contact stiffness), m (slip)
+    vec4 step_contact;       // s, 1/s, contact stiffness, m (slip)
     vec4 curves[3];          // LimitCurve by class: below, limit, beyond, compressed
     vec4 curve_damping;      // N/m by class
     vec4 relaxations[2];
     vec4 tolerances;         // of the linear solve, of Newton's method
     vec4 acad_above_below;   // by length squared over rest length squared; z, w: of those held
     vec4 acad_near;          // above, below; z: is it ACAD, w: does it remember
-    bool has_damping, exact_bend, is_graded;
+    bool has_damping, exact_bend, is_graded, contact_is_by_mass;
     bvec4 has;               // classes of springs
     ivec4 curve_kinds;       // by class
     int bottom_base, part_stride, padding_0, padding_1;
@@ -141,6 +141,7 @@ bool is_graded() { return solver.is_graded; }
 bool has_bend() { return solver.has[bend]; }
 bool exact_bend() { return push.level == 0u && solver.exact_bend && solver.has[bend]; }
 real contact_stiffness() { return solver.step_contact.z; }
+bool contact_is_by_mass() { return solver.contact_is_by_mass; }
 real slip() { return solver.step_contact.w; }
 real thickness() { return parameters.drag_lift_thickness.z; }
 real decay() { return parameters.gravity_direction.w; }
@@ -153,8 +154,7 @@ real hand_hold() { return parameters.rest_lengths_more.z; }
 real linear_tolerance() { return solver.tolerances.x; }
 real newton_tolerance() { return solver.tolerances.y; }
 
-bool is_first_look() { return push.level == 0u && push.detail == 1u; }
-bool is_last_look() { return push.detail == 2u; }
+bool is_last_look() { return push.detail == 1u; }
 bool is_cloth() { return push.level == 0u; }
 bool is_acad() { return solver.acad_near.z != 0.0f; }
 bool acad_has_memory() { return solver.acad_near.w != 0.0f; }
