@@ -119,10 +119,12 @@ TEST(Spring, BendingIsASpringOfNoLength)
 // --- springs with limits ---
 
 const D::LimitCurve limit_curves[] = {
-    {0, 50, 0.02, 4000, 4000, 0},  // a stiffness below the limit, resisting both ways beyond it
-    {0, 0, 0.01, 4000, 0, 0},      // tension alone
-    {1, 70, 0, 0, 0, 0},           // a plain spring
-    {2, 0, 0, 4000, 0, 0},         // a thread that does not give
+    {0, 50, 0.02, 4000, 4000, 0, 0},      // a stiffness below the limit, resisting both ways beyond it
+    {0, 0, 0.01, 4000, 0, 0, 0},          // tension alone
+    {1, 70, 0, 0, 0, 0, 0},               // a plain spring
+    {2, 0, 0, 4000, 0, 0, 0},             // a thread that does not give
+    {0, 50, 0.02, 4000, 4000, 0, 0.004},  // those that remember a force
+    {2, 0, 0, 4000, 0, 0, 0.004},
 };
 
 TEST(Limit, ForceIsTheSlopeOfTheEnergyAndMultiplierWhatTheLimitAdds)
@@ -157,6 +159,39 @@ TEST(Limit, KindsAreTheGeneralLawWhereTheRestOfItIsZero)
             EXPECT_DOUBLE_EQ(a.energy, b.energy);
             EXPECT_DOUBLE_EQ(a.multiplier, b.multiplier);
         }
+}
+
+TEST(Limit, ThatRemembersItsForceHasItsCompliance)
+{
+    // A weight hangs on a thread, and every step ends where the force of the limit is the weight.
+    constexpr double rest = 0.5, weight = 3, softest = 100, stiffest = 2000, compliance = 1e-4;
+    D::LimitCurve curve{2, 0, 0, softest / (1 + softest * compliance), 0, 0, 0};
+    double length = 0;
+    for (int step = 0; step < 40; ++step) {
+        length = rest + weight / curve.beyond - curve.slip;
+        const auto state = D::spring_state(curve, length * length, 1 / length, rest);
+        EXPECT_NEAR(state.multiplier, weight, 1e-9);
+        const auto memory = D::renewed_limit(state.multiplier, length / rest - 1, curve.beyond, compliance,
+                                             softest, stiffest);
+        EXPECT_LE(memory.stiffness, stiffest);
+        // The stiffness may be another, the force is not.
+        EXPECT_NEAR(memory.slip * memory.stiffness / (1 - memory.stiffness * compliance), weight, 1e-9);
+        curve.slip = memory.slip;
+        curve.beyond = memory.stiffness;
+    }
+    EXPECT_NEAR(length, rest + weight * compliance, 1e-9);
+}
+
+TEST(Limit, ThatIsExceededGrowsStifferAndElseSoftens)
+{
+    const auto stiffness = [](double strain, double now) {
+        return D::renewed_limit(1, strain, now, 0, 100, 2000).stiffness;
+    };
+    EXPECT_NEAR(stiffness(0.002, 500), 1000, 1e-5);  // its constants are floats  // twice a thousandth
+    EXPECT_NEAR(stiffness(0.05, 500), 2000, 1e-5);   // four times, and no more than that at once
+    EXPECT_NEAR(stiffness(0.05, 1500), 2000, 1e-5);  // the stiffest
+    EXPECT_NEAR(stiffness(0.0005, 500), 450, 1e-5);  // an eighth of the way back
+    EXPECT_NEAR(stiffness(-0.3, 100), 100, 1e-5);
 }
 
 // --- integration ---

@@ -41,6 +41,7 @@ struct OracleCase {
     double limit = 0;
     double damping = 0;  ///< N s/m
     bool contact = false;
+    bool remembers = false;
 };
 void PrintTo(const OracleCase& c, std::ostream* out) { *out << c.name; }
 
@@ -53,6 +54,8 @@ const OracleCase cases[] = {
     {.name = "sheet_springs", .implicit_euler = true, .damping = 0.5},
     {.name = "sheet_contact", .damping = 0.2, .contact = true},
     {.name = "sheet_quadratic", .quadratic = true, .damping = 0.2, .contact = true},
+    {.name = "sheet_remembers", .limit = 0.02, .contact = true, .remembers = true},
+    {.name = "disc_remembers", .disc = true, .resists = Resists::both, .remembers = true},
     {.name = "disc", .disc = true},
     {.name = "disc_both", .disc = true, .resists = Resists::both, .damping = 0.3},
     {.name = "disc_limits", .disc = true, .limit = 0.02},
@@ -93,6 +96,7 @@ Scene scene_of(const OracleCase& c, bool taut)
     scene.method = c.implicit_euler ? Method::mass_spring : Method::constraint;
     if (c.implicit_euler) scene.integrator = Integrator::implicit_euler;
     scene.newton_multigrid.resists = c.resists;
+    scene.newton_multigrid.enforcement = c.remembers ? Enforcement::multiplier : Enforcement::penalty;
     scene.newton_multigrid.contact_stiffness = contact_stiffness;
     scene.newton_multigrid.friction_speed = 0.05;
     if (c.contact) {
@@ -149,6 +153,7 @@ struct Bench {
         for (PlacedCollider& placed : colliders)  // it has moved for half of its second
             if (placed.moves) placed.centre = placed.centre - placed.velocity * 0.5;
         input.colliders = colliders;
+        if (c.remembers) input.softest = model.softest_limit(dt);
         step.emplace(std::move(input));
     }
 

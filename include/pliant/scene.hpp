@@ -329,18 +329,25 @@ enum class Preconditioner {
     none,       ///< plain conjugate gradients; to compare with
 };
 
+/// How the solver newton_multigrid keeps limits.
+enum class Enforcement {
+    multiplier,  ///< each spring remembers its force from step to step, and a soft stiffness corrects it
+    penalty,     ///< by the stiffness 1 / compliance alone; to compare with
+};
+
 /// The solver newton_multigrid: each step minimises its incremental potential (Martin et al. 2011,
 /// Example-Based Elastic Materials, section 4) by Newton's method.
 struct NewtonMultigridOptions {
     std::uint32_t newton_iterations = 8;  ///< 1 to 1000: at most, in a step; of ACAD, four times as many
     /// 0 to 1: a step is solved when its residual has fallen to this fraction of the step's load (what
     /// inertia and gravity ask of it), both in the norm of the energy; 0 never stops early.
-    double newton_tolerance = 0.1;
-    std::uint32_t linear_iterations = 6;  ///< 1 to 10,000 V-cycles: at most, in a Newton iteration
-    double linear_tolerance = 0.2;  ///< 0 to 1: the same for each linear system, against the smaller of the
+    double newton_tolerance = 0.03;
+    std::uint32_t linear_iterations = 4;  ///< 1 to 10,000 V-cycles: at most, in a Newton iteration
+    double linear_tolerance = 0.1;  ///< 0 to 1: the same for each linear system, against the smaller of the
                                     ///< load and its own residual
     std::uint32_t smoothing = 1;    ///< 1 to 8: degree of the smoother before and after each level
     Preconditioner preconditioner = Preconditioner::multigrid;
+    Enforcement enforcement = Enforcement::multiplier;
     Resists resists = Resists::tension;  ///< of all constraints
     /// N/m, 0 to 1e9: of a node against a collider; 0: a hundred times its mass over the step squared. It
     /// only corrects the normal force, which each node remembers from step to step.

@@ -164,6 +164,9 @@ struct State {
         std::vector<Vec3> velocities;  ///< m/s
     };
     std::vector<Nodes> cloths;  ///< in the order of the scene, nodes as in Simulation::positions
+    /// What constraints and contact remember of their forces, as state() gives it; empty, and they begin
+    /// anew, which is right where nodes are put somewhere else.
+    std::vector<std::vector<float>> memory = {};
 };
 
 /// What a spring is there for.

@@ -98,6 +98,8 @@ public:
     /// Numbers of the arena of a cloth's constraint solver, see Hierarchy. `values` keeps its memory.
     virtual void solver_numbers(std::uint32_t cloth, std::size_t first, std::size_t count,
                                 std::vector<float>& values) = 0;
+    virtual void write_solver_numbers(std::uint32_t cloth, std::size_t first,
+                                      std::span<const float> values) = 0;
 
     virtual const PassClock& clock() const = 0;
     virtual std::string device_name() const = 0;

@@ -87,6 +87,26 @@ private:
 
 }  // namespace
 
+namespace {
+
+/// m: the longest side of what a mesh takes up at rest, and the mean of its structural springs.
+std::array<double, 2> sides_of(std::span<const Vec3> positions, std::span<const Spring> springs)
+{
+    double length = 0, side = 0;
+    std::size_t count = 0;
+    for (const Spring& spring : springs)
+        if (spring.spring_class == SpringClass::structural) length += spring.rest_length, ++count;
+    for (const float Vec3::*axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+        const auto [least, most] = std::minmax_element(positions.begin(), positions.end(),
+                                                       [&](Vec3 a, Vec3 b) { return a.*axis < b.*axis; });
+        if (least != positions.end()) side = std::max(side, double{*most.*axis} - double{*least.*axis});
+    }
+    if (!(length > 0) || !(side > 0)) return {1, 1};
+    return {side, std::min(side, length / static_cast<double>(count))};
+}
+
+}  // namespace
+
 ClothModel::ClothModel(const Cloth& cloth, const Scene& scene)
 {
     if (const auto* options = std::get_if<SheetOptions>(&cloth.shape))
@@ -131,6 +151,16 @@ ClothModel::ClothModel(const Cloth& cloth, const Scene& scene)
         measured_spring_count_ = static_cast<std::uint64_t>(
             std::count_if(springs.begin(), springs.end(),
                           [](const Spring& spring) { return spring.spring_class != SpringClass::bend; }));
+    }
+    if (is_sheet()) {
+        const double along = (sheet->columns - 1) * sheet->rest_lengths[0],
+                     down = (sheet->rows - 1) * sheet->rest_lengths[1];
+        length_across = std::max(along, down);
+        springs_across = std::max(sheet->rows, sheet->columns) - 1;
+    } else {
+        const auto [side, spring] = sides_of(positions, springs);
+        length_across = side;
+        springs_across = side / spring;
     }
     if (method == Method::acad && solver == Solver::newton_multigrid && scene.time.substeps > 0) {
         acad_implicit = 1 / (scene.time.frame_rate * scene.time.substeps) > stable_step();
@@ -260,6 +290,27 @@ void ClothModel::place_attached(double time, std::span<Vec3> places) const
         places[k] = to_float(motions[attached[k].motion].centre + motion.offset +
                              rotate(motion.rotation, attached[k].arm));
     }
+}
+
+bool ClothModel::remembers(SpringClass of) const
+{
+    return method == Method::constraint && solver == Solver::newton_multigrid &&
+           newton.enforcement == Enforcement::multiplier && of != SpringClass::bend &&
+           limited[static_cast<std::size_t>(of)].beyond > 0;
+}
+
+// A pull runs through n springs in a row at sqrt(k / m) springs a second. By one update a step it has to be
+// through in about half of one, k = 4.6 m n^2 / dt^2; below a quarter of that the update itself is unstable
+// (docs/physics.md). What colliders hold up is pulled at from all sides, and wants four times as much. In
+// long steps it is to hold the cloth's weight at once, m g n over n springs of length L / n, at a stretch of
+// 0.2 %.
+double ClothModel::softest_limit(double step_length) const
+{
+    double mass = 0;
+    for (const double m : masses) mass += m;
+    const double line = mass / static_cast<double>(node_count()) * springs_across * springs_across;
+    const double weight = std::sqrt(dot(parameters.gravity, parameters.gravity)) / length_across;
+    return line * std::max((meets_colliders ? 4 : 1) * 4.6 / (step_length * step_length), 500 * weight);
 }
 
 void ClothModel::set_springs(const Cloth& cloth, const Scene& scene)

@@ -106,6 +106,12 @@ public:
     ClothModel(const Cloth& cloth, const Scene& scene);
 
     std::uint32_t node_count() const { return static_cast<std::uint32_t>(masses.size()); }
+    /// Whether limits of a class remember their forces from step to step: a renewed_limit of
+    /// laws/limit.law.glsl.
+    bool remembers(SpringClass of) const;
+    bool remembers_any() const { return remembers(SpringClass::structural) || remembers(SpringClass::shear); }
+    /// N/m: the softest stiffness by which such a limit is made right, in steps of so many seconds.
+    double softest_limit(double step_length) const;
     /// 1/kg; 0 of a pinned node.
     double inverse_mass(std::size_t node) const { return pinned[node] ? 0 : 1 / masses[node]; }
     /// Lets go of the positions and velocities at the start, once a backend has them.
@@ -181,6 +187,8 @@ public:
     /// Some have a scale, or bending, of their own. A sheet with such springs is stepped as a mesh.
     bool graded = false;
     bool meets_colliders = false;  ///< the scene has some
+    double springs_across = 1;     ///< how many structural springs lead in a row from one end to the other
+    double length_across = 1;      ///< m: of the cloth at rest
     /// At most what the largest eigenvalue of the solver's operator is against its own diagonal blocks: a
     /// term that couples n nodes has none beyond n, and a spring couples two.
     double spectrum_end = 2.5;

@@ -26,18 +26,39 @@ KERNEL SpringShare bent(SpringShare spring, vec3 d, real weight)
     return spring;
 }
 
+KERNEL LimitCurve mesh_limit(int e)
+{
+    int spring_class = topology(level.edge_ends + 3 * e + 2);
+    LimitCurve curve = class_curve(spring_class);
+    if (!remembers(spring_class)) return curve;
+    return remembered(curve, edge_load(edge_slip, e), edge_load(edge_stiff, e), softest(spring_class));
+}
+
 KERNEL void mesh_springs(int e)
 {
     int ends = level.edge_ends + 3 * e;
     int i = topology(ends), j = topology(ends + 1);
     vec3 start = load3(plane_q, j) - load3(plane_q, i), moved = load3(plane_t, j) - load3(plane_t, i);
     SpringShare spring =
-        spring_share(class_curve(topology(ends + 2)), start, moved, edge_load(edge_rest, e), mesh_scale(e));
+        spring_share(mesh_limit(e), start, moved, edge_load(edge_rest, e), mesh_scale(e));
     if (is_graded() && !is_acad()) spring = bent(spring, start + moved, edge_load(edge_bending, e));
     edge_store3(edge_force, e, spring.force);
     edge_store6(edge_block, e, spring.block);
     edge_store(edge_taut, e, choose(magnitude(spring.multiplier) > 0.0f, real(1.0f), real(0.0f)));
     sums[0] = sums[0] + spring.energy;
+}
+
+// As sheet_multiply.
+KERNEL void mesh_multiply(int e)
+{
+    int ends = level.edge_ends + 3 * e, spring_class = topology(ends + 2);
+    if (!remembers(spring_class)) return;
+    int i = topology(ends), j = topology(ends + 1);
+    vec3 d = load3(plane_q, j) - load3(plane_q, i) + (load3(plane_t, j) - load3(plane_t, i));
+    RenewedLimit limit = renewed(mesh_limit(e), dot3(d, d), edge_load(edge_rest, e), spring_class);
+    edge_store(edge_slip, e, limit.memory.slip);
+    edge_store(edge_stiff, e, limit.memory.stiffness);
+    sums[0] = sums[0] + limit.energy * mesh_scale(e);
 }
 
 // Forces and the operator of a node from its springs. A spring to a pinned node is a support of this one. A taut spring
@@ -264,8 +285,7 @@ KERNEL void mesh_multipliers(int o)
             int e = topology(k + 1), j = topology(k);
             vec3 d = load3(plane_q, j) + load3(plane_t, j) - x;
             real length2 = dot3(d, d), rest = edge_load(edge_rest, e);
-            LimitCurve curve = class_curve(topology(level.edge_ends + 3 * e + 2));
-            SpringState state = spring_state(curve, length2, inverse_sqrt(length2), rest);
+            SpringState state = spring_state(mesh_limit(e), length2, inverse_sqrt(length2), rest);
             most = largest(magnitude(state.multiplier * mesh_scale(e)), most);
         }
     }

@@ -7,6 +7,35 @@
 // resolves it to a part of itself and not of the distance to the origin. Newton's method starts at the displacement
 // dt v, not at 0 and not at y: from there slack springs are found slack (docs/physics.md, "Constraints").
 
+// A limit that remembers, as it is in a step (laws/limit.law.glsl); `stiffness` is 0 where it is new.
+KERNEL LimitCurve remembered(LimitCurve curve, real slip, real stiffness, real softest_of_class)
+{
+    curve.slip = slip;
+    curve.compressed = choose(curve.compressed > 0.0f, largest(stiffness, softest_of_class), real(0.0f));
+    curve.beyond = largest(stiffness, softest_of_class);
+    return curve;
+}
+
+// Such a limit after a step, and what its energy is changed by for the next one, J.
+struct RenewedLimit
+{
+    LimitMemory memory;
+    real energy;
+};
+KERNEL RenewedLimit renewed(LimitCurve curve, real length2, real rest_length, int spring_class)
+{
+    real inverse_length = inverse_sqrt(length2), extension = length2 * inverse_length - rest_length;
+    real slack = curve.limit * rest_length, over = extension - slack, under = real(0.0f) - extension - slack;
+    real violation = choose(curve.compressed > 0.0f, largest(over, under), over);
+    SpringState state = spring_state(curve, length2, inverse_length, rest_length);
+    RenewedLimit limit;
+    limit.memory = renewed_limit(state.multiplier, violation * reciprocal(rest_length), curve.beyond, compliance(spring_class),
+                                 softest_limit(), stiffest_limit());
+    curve = remembered(curve, limit.memory.slip, limit.memory.stiffness, limit.memory.stiffness);
+    limit.energy = spring_state(curve, length2, inverse_length, rest_length).energy - state.energy;
+    return limit;
+}
+
 // A spring between two nodes in a step: the force on the first, N, and what the operator and the energy take from it.
 struct SpringShare
 {
@@ -216,6 +245,12 @@ KERNEL void newton_move(int o)
     vec3 t = load3(plane_t, o);
     store3(plane_u, o, t);
     store3(plane_t, o, t + load3(plane_x, o));
+}
+// What is left of local errors at the end of a step: a damped step of block Jacobi, from what the last look has left. It
+// takes the peaks of stretch at single springs.
+KERNEL void newton_polish(int o)
+{
+    store3(plane_t, o, load3(plane_t, o) + solved(load6(plane_factor, o), load3(plane_r, o)) * real(0.7f));
 }
 KERNEL void search_move(int o)
 {

@@ -33,11 +33,14 @@ const int node_planes = 81;
 // Of a sheet's node, one for each of its six forward springs; of a mesh they lie by spring.
 const int plane_scale = 81;    // multiplies stiffness; 0 where the sheet has no such spring
 const int plane_mark = 87;     // of ACAD: 1 where the spring is a limit in this step
-const int sheet_planes = 93;
+// Of limits that remember, one for each of the first four: LimitMemory, kept from step to step. 0, and it is new.
+const int plane_slip = 93;     // m
+const int plane_stiff = 97;    // N/m
+const int sheet_planes = 101;
 // Where bend springs are constraints: their blocks, and couplings along rows and columns with them folded in.
-const int plane_bend = 93;
-const int plane_fold = 105;
-const int bent_sheet_planes = 117;
+const int plane_bend = 101;
+const int plane_fold = 113;
+const int bent_sheet_planes = 125;
 
 // Of a mesh's spring; a coupling of a coarser level has the block alone. Row sums of nodes come after the blocks.
 const int edge_block = 0;      // N/m
@@ -47,7 +50,9 @@ const int edge_taut = 10;      // 1 for an active constraint
 const int edge_mark = 11;      // of ACAD: 1 where the spring is a limit in this step
 const int edge_scale = 12;     // of graded springs: multiplies stiffness, and the weight of bending, N/m
 const int edge_bending = 13;
-const int edge_planes = 14;
+const int edge_slip = 14;      // of limits that remember: LimitMemory
+const int edge_stiff = 15;
+const int edge_planes = 16;
 
 // Numbers of a cloth's solve that are no nodes': the control of the iterations, and their counters.
 const int scalar_newton_done = 0;   // 1 when this step's Newton iteration has ended
@@ -82,7 +87,8 @@ const int scalar_residual_last = 28;
 const int scalar_first_residual2 = 29; // N2: r . r of the last linear system, at first and now
 const int scalar_residual2 = 30;
 const int scalar_contact_energy = 31; // J, accepted
-const int scalar_count = 32;
+const int scalar_first_slope = 32;   // J: scalar_slope of the step's first iteration
+const int scalar_count = 33;
 
 // Sums over nodes or springs that passes leave in parts.
 const int sum_spring_energy = 0;    // J, of springs
@@ -96,6 +102,7 @@ const int sum_lost = 7;             // J
 const int sum_contact_change = 7;   // J, before that
 const int sum_active = 8;           // constraints
 const int sum_marked = 9;           // springs that ACAD has marked
+const int sum_renewed = 9;          // J: what limits are changed by that remember
 const int sum_slots = 10;
 const int sum_columns = 64;         // that one part of a sum is of
 

@@ -110,9 +110,14 @@ KERNEL void newton_check()
     real newton = scalar(scalar_newton) + real(1.0f);
     real load = scalar(scalar_load);
     real left = load > 0.0f ? scalar(scalar_slope) * reciprocal(load) : real(0.0f);
+    if (newton < 1.5f) set_scalar(scalar_first_slope, scalar(scalar_slope));
     set_scalar(scalar_newton, newton);
     set_scalar(scalar_residual_last, left <= 0.0f ? real(0.0f) : left * inverse_sqrt(left));
-    bool done = left <= newton_tolerance() * newton_tolerance() || !(scalar(scalar_step) > 0.0f);
+    // A step that has much to do may leave more of it.
+    real some = real(1e-3f) * (newton < 1.5f ? scalar(scalar_slope) : scalar(scalar_first_slope));
+    real loose = loose_tolerance() * loose_tolerance() * load;
+    real goal = largest(newton_tolerance() * newton_tolerance() * load, some < loose ? some : loose);
+    bool done = scalar(scalar_slope) <= goal || !(scalar(scalar_step) > 0.0f);
     if (done) set_scalar(scalar_newton_done, real(1.0f));
 }
 
@@ -151,7 +156,7 @@ KERNEL void solve_end()
     bool counts = scalar(scalar_started) > 0.0f && !is_acad();
     real lost = counts ? scalar(scalar_spring_energy) - springs + work : real(0.0f);
     set_scalar(scalar_energy_lost, scalar(scalar_energy_lost) + lost);
-    set_scalar(scalar_spring_energy, springs);
+    set_scalar(scalar_spring_energy, springs + (remembers_any() ? total(sum_renewed) : real(0.0f)));
     set_scalar(scalar_started, real(1.0f));
     set_scalar(scalar_active_sum, scalar(scalar_active_sum) + constraints);
     set_scalar(scalar_active_max, largest(scalar(scalar_active_max), constraints));

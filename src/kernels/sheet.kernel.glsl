@@ -17,10 +17,18 @@ KERNEL real spring_scale(int k, int o)
     return load((is_acad() ? plane_mark : plane_scale) + k, o);
 }
 
-// A spring as the node at i has it, which it draws towards the one at j; nothing where `scale` is 0.
-KERNEL SpringShare sheet_spring(int k, int i, int j, real scale)
+// Of the spring k that begins at a node.
+KERNEL LimitCurve sheet_limit(int k, int first)
 {
-    return spring_share(sheet_curve(k), load3(plane_q, j) - load3(plane_q, i), load3(plane_t, j) - load3(plane_t, i),
+    LimitCurve curve = sheet_curve(k);
+    if (k >= 4 || !remembers(sheet_class(k))) return curve;
+    return remembered(curve, load(plane_slip + k, first), load(plane_stiff + k, first), softest(sheet_class(k)));
+}
+
+// A spring as the node at i has it, which it draws towards the one at j; nothing where `scale` is 0. It begins at `first`.
+KERNEL SpringShare sheet_spring(int k, int i, int j, real scale, int first)
+{
+    return spring_share(sheet_limit(k, first), load3(plane_q, j) - load3(plane_q, i), load3(plane_t, j) - load3(plane_t, i),
                         sheet_rest(k), scale);
 }
 KERNEL real counted_taut(SpringShare spring)
@@ -39,11 +47,27 @@ KERNEL void sheet_multipliers(int o)
             int j = side == 0 ? o + forward_offset(k) : o - forward_offset(k), first = side == 0 ? o : j;
             vec3 d = load3(plane_q, j) + load3(plane_t, j) - x;
             real length2 = dot3(d, d);
-            SpringState state = spring_state(sheet_curve(k), length2, inverse_sqrt(length2), sheet_rest(k));
+            SpringState state = spring_state(sheet_limit(k, first), length2, inverse_sqrt(length2), sheet_rest(k));
             real scale = spring_scale(k, first);
             most = largest(magnitude(state.multiplier * scale), most);
         }
     set_multiplier(o, choose(scalar(scalar_idle) > 0.0f, real(0.0f), most));
+}
+
+// What the limits of a node's forward springs remember of the step. The sum is what that adds to their energy.
+KERNEL void sheet_multiply(int o)
+{
+    vec3 x = load3(plane_q, o) + load3(plane_t, o);
+    UNROLL for (int k = 0; k < 4; ++k) {
+        if (!sheet_has(k) || !remembers(sheet_class(k))) continue;
+        int j = o + forward_offset(k);
+        vec3 d = load3(plane_q, j) + load3(plane_t, j) - x;
+        real scale = spring_scale(k, o);
+        RenewedLimit limit = renewed(sheet_limit(k, o), dot3(d, d), sheet_rest(k), sheet_class(k));
+        store(plane_slip + k, o, limit.memory.slip * scale);
+        store(plane_stiff + k, o, limit.memory.stiffness);
+        sums[0] = sums[0] + limit.energy * scale;
+    }
 }
 
 // A node while its springs are added: the force on it, and the rows of the operator.
@@ -142,16 +166,16 @@ KERNEL void sheet_gather(int o)
         SpringShare onward = no_spring(), back = onward, far_onward = onward, far_back = onward;
         Symmetric across = onward.block;
         if (sheet_has(k)) {
-            onward = sheet_spring(k, o, j, spring_scale(k, o));
-            back = sheet_spring(k, o, i, spring_scale(k, i));
+            onward = sheet_spring(k, o, j, spring_scale(k, o), o);
+            back = sheet_spring(k, o, i, spring_scale(k, i), i);
             energy = energy + onward.energy;
             taut = taut + counted_taut(onward);
         }
         if (is_bent(k)) {
             int bend = bend_along(k);
-            far_onward = sheet_spring(bend, o, j + step, spring_scale(bend, o));
-            far_back = sheet_spring(bend, o, i - step, spring_scale(bend, i - step));
-            across = sheet_spring(bend, i, j, spring_scale(bend, i)).block;
+            far_onward = sheet_spring(bend, o, j + step, spring_scale(bend, o), o);
+            far_back = sheet_spring(bend, o, i - step, spring_scale(bend, i - step), i - step);
+            across = sheet_spring(bend, i, j, spring_scale(bend, i), i).block;
             energy = energy + far_onward.energy;
             taut = taut + counted_taut(far_onward);
         }
@@ -167,13 +191,13 @@ KERNEL void sheet_energy(int o)
     UNROLL for (int k = 0; k < 4; ++k) {
         int step = forward_offset(k);
         if (sheet_has(k)) {
-            SpringShare onward = sheet_spring(k, o, o + step, spring_scale(k, o));
+            SpringShare onward = sheet_spring(k, o, o + step, spring_scale(k, o), o);
             energy = energy + onward.energy;
             taut = taut + counted_taut(onward);
         }
         if (is_bent(k)) {
             int bend = bend_along(k);
-            SpringShare onward = sheet_spring(bend, o, o + 2 * step, spring_scale(bend, o));
+            SpringShare onward = sheet_spring(bend, o, o + 2 * step, spring_scale(bend, o), o);
             energy = energy + onward.energy;
             taut = taut + counted_taut(onward);
         }

@@ -1,9 +1,10 @@
 // Springs with a limit, as the implicit step sees them: an energy, its force, and how stiff it is along and across.
 //
-//   E(l) = 1/2 k e^2 + 1/2 K max(0, e - s l0)^2 + 1/2 K' max(0, -e - s l0)^2,   e = l - l0
+//   E(l) = 1/2 k e^2 + 1/2 K max(0, e - s l0 + a)^2 + 1/2 K' max(0, -e - s l0 - a)^2,   e = l - l0
 //
 // k is the stiffness below the limit s, 1 / K the compliance beyond it, K' = K when compression is resisted too, else 0.
 // A constraint of the papers is k = 0, s = 0: eq. (5) of the cloth paper made soft by its compliance, and unilateral.
+// a is 0 for a penalty; of a limit that remembers its force it is that force over K: an augmented Lagrangian.
 
 struct LimitCurve
 {
@@ -13,6 +14,7 @@ struct LimitCurve
     real beyond;      // K, N/m
     real compressed;  // K', N/m
     real damping;     // c / dt, N/m: resists the change of length during the step
+    real slip;        // m: the limit acts as if the spring were this much longer, see renewed_limit
 };
 
 // What a spring does at its length: on node i the force is `force` n, n = (x_j - x_i) / l.
@@ -32,8 +34,8 @@ LAW SpringState limited_spring(LimitCurve curve, real length2, real inverse_leng
 {
     real extension = length2 * inverse_length - rest_length;
     real slack = curve.limit * rest_length;
-    real over = largest(extension - slack, real(0.0f));
-    real under = largest(real(0.0f) - extension - slack, real(0.0f));
+    real over = largest(extension + curve.slip - slack, real(0.0f));
+    real under = largest(real(0.0f) - extension - curve.slip - slack, real(0.0f));
     SpringState state;
     state.multiplier = curve.beyond * over - curve.compressed * under;
     state.force = curve.below * extension + state.multiplier;
@@ -61,7 +63,7 @@ LAW SpringState plain_spring(LimitCurve curve, real length2, real inverse_length
 
 LAW SpringState taut_spring(LimitCurve curve, real length2, real inverse_length, real rest_length)
 {
-    real over = largest(length2 * inverse_length - rest_length, real(0.0f));
+    real over = largest(length2 * inverse_length - rest_length + curve.slip, real(0.0f));
     SpringState state;
     state.multiplier = curve.beyond * over;
     state.force = state.multiplier;
@@ -77,4 +79,35 @@ LAW SpringState spring_state(LimitCurve curve, real length2, real inverse_length
     if (curve.kind == 2) return taut_spring(curve, length2, inverse_length, rest_length);
     if (curve.kind == 1) return plain_spring(curve, length2, inverse_length, rest_length);
     return limited_spring(curve, length2, inverse_length, rest_length);
+}
+
+// What a limit remembers of a step for the next one.
+struct LimitMemory
+{
+    real slip;       // m
+    real stiffness;  // N/m, K above
+};
+
+// 1 / a of a positive number.
+LAW real one_over(real a)
+{
+    real root = inverse_sqrt(a);
+    return root * root;
+}
+
+// The multiplier method, one update a step: the force that the limit ended with is what it begins with, and K only makes
+// it right. With a' = f / K0 and K = K0 / (1 + K0 c) a limit at rest has its true compliance c, whatever K0 is. K0 is as soft
+// as the cloth allows (ClothModel::softest_limit), but of the few springs that are beyond their limit by more than a
+// thousandth it grows, by 4 at most in a step.
+//   strain: (l - l0) / l0 beyond the limit. Source: Hestenes, "Multiplier and gradient methods", 1969.
+LAW LimitMemory renewed_limit(real multiplier, real strain, real stiffness, real compliance, real softest, real stiffest)
+{
+    real bare = stiffness * one_over(largest(1.0f - stiffness * compliance, real(0.0009765625f)));
+    real grown = strain * real(1e3f);
+    real next = choose(grown > 1.0f, bare * choose(grown > 4.0f, real(4.0f), grown), bare + (softest - bare) * real(0.125f));
+    next = choose(next > stiffest, stiffest, largest(next, softest));
+    LimitMemory memory;
+    memory.slip = multiplier * one_over(next);
+    memory.stiffness = next * one_over(1.0f + next * compliance);
+    return memory;
 }

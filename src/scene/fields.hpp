@@ -38,6 +38,7 @@ inline constexpr std::array border_names{"full", "half"};
 inline constexpr std::array solver_names{"newton_multigrid", "paper"};
 inline constexpr std::array role_names{"automatic", "spring", "constraint", "off"};
 inline constexpr std::array preconditioner_names{"multigrid", "jacobi", "none"};
+inline constexpr std::array enforcement_names{"multiplier", "penalty"};
 inline constexpr std::array resists_names{"tension", "both"};
 inline constexpr std::array target_names{"threshold", "rest"};
 inline constexpr std::array formulation_names{"automatic", "node_centric", "spring_list"};
@@ -364,6 +365,7 @@ void fields(auto& at, Is<NewtonMultigridOptions> auto& solver)
     at.number("linear_tolerance", solver.linear_tolerance, fraction, "");
     at.number("smoothing", solver.smoothing, {1, 8}, "");
     at.choice("preconditioner", solver.preconditioner, preconditioner_names);
+    at.choice("enforcement", solver.enforcement, enforcement_names);
     at.choice("resists", solver.resists, resists_names);
     at.number("contact_stiffness", solver.contact_stiffness, {0, 1e9}, "N/m");
     at.number("friction_speed", solver.friction_speed, above(0, 1), "m/s");

@@ -32,11 +32,13 @@ HeldSprings::HeldSprings(const ClothModel& model, std::span<const SpringListing>
 {
     if (model.hierarchy.empty()) return;
     rows_ = model.solver == Solver::paper;
-    marked_ = rows_ || model.corrects_steps();
+    remembers_ = model.remembers_any();
+    marked_ = rows_ || model.corrects_steps() || remembers_;
     for (const SpringListing& spring : springs) {
         const double limit = limit_of(model, static_cast<SpringClass>(spring.kind));
         const double least = limit > -1 ? spring.rest_length * (1 + limit) : -1;
-        springs_.push_back({spring.i, spring.j, static_cast<float>(least), -1});
+        springs_.push_back({spring.i, spring.j, static_cast<float>(least), -1,
+                            model.remembers(static_cast<SpringClass>(spring.kind))});
     }
     if (!marked_) return;
     const std::vector<std::int32_t>& topology = model.hierarchy.topology;
@@ -49,12 +51,12 @@ HeldSprings::HeldSprings(const ClothModel& model, std::span<const SpringListing>
         count_ = at(rows_constraints);
         find_listed_marks(model, node_of_vertex, topology.data() + at(rows_ends), 2);
     } else if (level.edges > 0) {
-        first_ = size_of(level.edge_base) + edge_mark * size_of(level.edge_size);
+        first_ = size_of(level.edge_base) + (remembers_ ? edge_slip : edge_mark) * size_of(level.edge_size);
         count_ = size_of(level.edges);
         find_listed_marks(model, node_of_vertex, topology.data() + level.edge_ends, 3);
     } else {
-        first_ = size_of(level.base) + plane_mark * size_of(level.size);
-        count_ = 6 * size_of(level.size);
+        first_ = size_of(level.base) + (remembers_ ? plane_slip : plane_mark) * size_of(level.size);
+        count_ = (remembers_ ? 4 : 6) * size_of(level.size);
         find_sheet_marks(model);
     }
 }
@@ -70,6 +72,7 @@ void HeldSprings::find_sheet_marks(const ClothModel& model)
                            right = static_cast<std::int32_t>(spring.j % columns) - column;
         // As forward_offset of kernels/sheet.kernel.glsl.
         const int k = down == 0 ? (right == 1 ? 0 : 4) : down == 2 ? 5 : 2 + right;
+        if (remembers_ && k >= 4) continue;  // bend springs remember nothing
         spring.mark = std::int64_t{k} * level.size + Hierarchy::offset(level, row, column);
     }
 }
@@ -105,7 +108,12 @@ void HeldSprings::read(PassRunner& runner, std::uint32_t model, std::span<const 
     if (marked_) runner.solver_numbers(model, first_, count_, marks_);
     for (std::size_t s = 0; s < springs_.size(); ++s) {
         const Row& spring = springs_[s];
-        if (spring.least < 0 || (marked_ && (spring.mark < 0 || marks_[std::size_t(spring.mark)] == 0)))
+        if (remembers_ && spring.remembers) {
+            held[s] = spring.least >= 0 && spring.mark >= 0 && marks_[std::size_t(spring.mark)] != 0 ? 1 : 0;
+            continue;
+        }
+        if (spring.least < 0 ||
+            (marked_ && !remembers_ && (spring.mark < 0 || marks_[std::size_t(spring.mark)] == 0)))
             continue;
         if (!rows_) {
             const Vec3d d = to_double(positions[spring.j]) - to_double(positions[spring.i]);

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "simulation/implementation.hpp"
+#include "simulation/solver_memory.hpp"
 #include "solve/mass_spring.hpp"
 #include "solve/newton_multigrid.hpp"
 
@@ -11,11 +12,13 @@ namespace pliant {
 
 State Simulation::Implementation::state()
 {
-    State now{report.simulated_seconds, {}};
+    State now{report.simulated_seconds, {}, {}};
     for (std::size_t c = 0; c < places.size(); ++c) {
         const auto x = values(c, Resource::position), v = values(c, Resource::velocity);
         now.cloths.push_back({{x.begin(), x.end()}, {v.begin(), v.end()}});
     }
+    for (std::uint32_t m = 0; m < models.size(); ++m)
+        now.memory.push_back(solver_memory(*runner, models[m], m));
     return now;
 }
 
@@ -46,6 +49,9 @@ void Simulation::Implementation::set_state(const State& state)
         for (std::size_t i = 0; i < x.size(); ++i)
             if (!(models[m].inverse_mass(i) > 0) && !moved[i]) v[i] = {};  // a pin that stands still
         runner->write(m, x, v);
+        // Of another method or solver, it says nothing here.
+        const bool knows = m < state.memory.size() && state.memory[m].size() == solver_memory_size(models[m]);
+        put_solver_memory(*runner, models[m], m, knows ? state.memory[m] : std::vector<float>{});
     }
     report.simulated_seconds = state.time;
     report.finite = true;

@@ -31,6 +31,10 @@ public:
             newton_iteration(k == newton_most());
             if (cloth_.meets_colliders && k < newton_most() && k == (newton_most() + 1) / 2) renew_contact();
         }
+        if (cloth_.remembers_any()) {
+            add(Pass::newton_polish);
+            add(on_mesh_ ? Pass::mesh_multiply : Pass::sheet_multiply);
+        }
         add(Pass::step_end);
         add(Pass::solve_end);
     }
@@ -133,7 +137,7 @@ private:
         add(Pass::newton_move, Guard::newton);
         for (std::uint32_t k = 0; k < search_tries; ++k) {
             if (k > 0) add(Pass::search_move, Guard::search);
-            evaluate(Guard::search, is_last ? last_look : 0);
+            evaluate(Guard::search, is_last && !cloth_.remembers_any() ? last_look : 0);
             add(Pass::search_check, Guard::search);
         }
         add(Pass::newton_check, Guard::newton);

@@ -49,6 +49,8 @@ SumSlots sum_slots_of(Pass pass)
         case Pass::mesh_limits:
         case Pass::sheet_limits: return {sum_active, 1};
         case Pass::sheet_marks: return {sum_active, 2};  // and marked springs
+        case Pass::mesh_multiply:
+        case Pass::sheet_multiply: return {sum_renewed, 1};
         case Pass::contact_change: return {sum_contact_change, 1};
         case Pass::step_end: return {sum_lost, 2};  // and active constraints
         case Pass::paper_springs: return {sum_active, 1};

@@ -108,7 +108,8 @@ void ImplicitStep::add_spring(std::size_t spring_class, int i, int j, int betwee
     if (role == SpringRole::constraint) {
         curve.limit = given.limit;
         curve.below = given.limit > 0 ? given.stiffness : 0;
-        curve.beyond = 1 / given.compliance;
+        const double soft = spring_class != bend && input_.softest > 0 ? 1 / input_.softest : 0;
+        curve.beyond = 1 / (given.compliance + soft);
         if (input_.scene.newton_multigrid.resists == Resists::both) curve.compressed = curve.beyond;
     } else {
         curve.below = given.stiffness;

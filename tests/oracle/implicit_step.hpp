@@ -32,10 +32,11 @@ struct Pressed {
 /// What a step starts from: lists by vertex, of a sheet by node, row by row.
 struct StepInput {
     Cloth cloth;
-    Scene scene;                                      ///< gravity, and the options of the solver
-    std::vector<Point> rest = {};                     ///< m: of a mesh, where its vertices were placed
-    std::vector<Triangle> triangles = {};             ///< of a mesh
-    double dt = 0;                                    ///< s
+    Scene scene;                           ///< gravity, and the options of the solver
+    std::vector<Point> rest = {};          ///< m: of a mesh, where its vertices were placed
+    std::vector<Triangle> triangles = {};  ///< of a mesh
+    double dt = 0;                         ///< s
+    double softest = 0;  ///< N/m: what corrects limits that remember, before their compliance; 0: penalty
     std::vector<Point> position = {}, velocity = {};  ///< m, m/s
     std::vector<bool> is_pinned = {};
     std::vector<Point> destination = {};  ///< m: where a pinned node is at the end of the step

@@ -211,7 +211,6 @@ public:
     {
         cloths_[cloth].plain.write(positions, velocities);
         cloths_[cloth].records.forget();
-        cloths_[cloth].solver.forget(cloths_[cloth].plain.model);
     }
     void take_mass(std::uint32_t cloth, std::uint32_t node) override
     {
@@ -231,6 +230,10 @@ public:
     {
         const auto of = cloths_[cloth].solver.arena().subspan(first, count);
         values.assign(of.begin(), of.end());
+    }
+    void write_solver_numbers(std::uint32_t cloth, std::size_t first, std::span<const float> values) override
+    {
+        cloths_[cloth].solver.put(first, values);
     }
     MeasureTotals measures(std::uint32_t cloth) override { return cloths_[cloth].plain.totals(); }
     const PassClock& clock() const override { return clock_; }

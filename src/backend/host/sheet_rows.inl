@@ -89,7 +89,7 @@ KERNEL void make_springs(SpringRows& to, int row, const RowSpan& span)
     if (!sheet_has(k)) return;
     for (int column = span.left; column < span.right; column += Lanes<T>::count) {
         const int o = level_offset(row, span.first + column);
-        const SpringShare share = sheet_spring(k, o, o + forward_offset(k), spring_scale(k, o));
+        const SpringShare share = sheet_spring(k, o, o + forward_offset(k), spring_scale(k, o), o);
         Number* p = to.at(row, k, column);
         constexpr Distance pitch = SpringRows::pitch;
         put3(p, pitch, share.force.x, share.force.y, share.force.z);

@@ -182,7 +182,8 @@ struct SolverKernels {
     {
         const auto& c = constants.curves[k];
         return {c.kind,           spread(c.below),      spread(c.limit),
-                spread(c.beyond), spread(c.compressed), spread(c.damping)};
+                spread(c.beyond), spread(c.compressed), spread(c.damping),
+                spread(Number(0))};
     }
     real sheet_rest(int k) const
     {
@@ -213,6 +214,13 @@ struct SolverKernels {
     real hand_hold() const { return spread(constants.hand_hold); }
     real linear_tolerance() const { return spread(constants.linear_tolerance); }
     real newton_tolerance() const { return spread(constants.newton_tolerance); }
+    real loose_tolerance() const { return spread(constants.loose_tolerance); }
+    bool remembers(int k) const { return constants.remembers[k]; }
+    bool remembers_any() const { return constants.remembers[0] || constants.remembers[1]; }
+    real softest(int k) const { return spread(constants.softest[k]); }
+    real softest_limit() const { return spread(constants.softest_limit); }
+    real compliance(int k) const { return spread(constants.compliance[k]); }
+    real stiffest_limit() const { return spread(constants.stiffest_limit); }
 
     int collider_count() const { return context.collider_count; }
     Collider collider(int k) const { return spread_collider<Collider, T>(context.colliders[k]); }
@@ -387,6 +395,8 @@ struct SolverKernels {
                 return products<&K::linear_apply, &K::leave_applied>(pass, plane_p, begin, end);
             case Pass::linear_update: return nodes<&K::linear_update>(pass, begin, end);
             case Pass::newton_move: return nodes<&K::newton_move>(pass, begin, end);
+            case Pass::newton_polish: return nodes<&K::newton_polish>(pass, begin, end);
+            case Pass::sheet_multiply: return nodes<&K::sheet_multiply>(pass, begin, end);
             case Pass::search_move: return nodes<&K::search_move>(pass, begin, end);
             case Pass::contact_change: return nodes<&K::contact_change>(pass, begin, end);
             case Pass::contact_keep: return nodes<&K::contact_keep>(pass, begin, end);

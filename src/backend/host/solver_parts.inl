@@ -17,6 +17,7 @@ void run_mesh(Pass pass, int begin, int end)
         case Pass::mesh_restrict: return nodes<&K::mesh_restrict>(pass, begin, end);
         case Pass::mesh_limits: return nodes<&K::mesh_limits>(pass, begin, end);
         case Pass::mesh_marks: return rows<&K::mesh_marks>(pass, begin, end, level.edges);
+        case Pass::mesh_multiply: return rows<&K::mesh_multiply>(pass, begin, end, level.edges);
         case Pass::mesh_clear: clear_parts(begin, end); return nodes<&K::mesh_clear>(pass, begin, end);
         case Pass::mesh_clear_edges: return rows<&K::mesh_clear_edges>(pass, begin, end, level.edges);
         case Pass::mesh_live:

@@ -77,7 +77,24 @@ SolverConstants<T> make_solver_constants(const ClothModel& model, double step_le
                                                               : of_acad);
     c.slip = number(newton.friction_speed * step_length);
     c.linear_tolerance = number(newton.linear_tolerance);
-    c.newton_tolerance = number(newton.newton_tolerance);
+    c.newton_tolerance = c.loose_tolerance = number(newton.newton_tolerance);
+    if (step_length > 0 && !model.corrects_steps()) {
+        const double softest = model.softest_limit(step_length);
+        // A spring that a corner hangs by carries what twenty others do.
+        constexpr double stiffest = 20, loose = 10;
+        c.softest_limit = number(softest);
+        c.stiffest_limit = number(stiffest * softest);
+        for (std::size_t k = 0; k < spring_class_count; ++k) {
+            if (!model.remembers(static_cast<SpringClass>(k))) continue;
+            const double give = 1 / model.limited[k].beyond;
+            c.remembers[k] = true;
+            c.compliance[k] = number(give);
+            c.softest[k] = number(softest / (1 + softest * give));
+            // Friction wants to know its normal forces.
+            if (!model.meets_colliders)
+                c.loose_tolerance = number(std::min(1.0, loose * newton.newton_tolerance));
+        }
+    }
     // Chebyshev's points on the upper part of the spectrum of D^-1 A, which the smoother has to take care of:
     // the higher its degree, the larger the part that it can. Measured by V-cycles (docs/performance.md).
     const double greatest = model.spectrum_end;
@@ -122,18 +139,6 @@ void set_first_numbers(const ClothModel& model, const Hierarchy& hierarchy, T* a
         });
 }
 
-std::vector<ArenaRange> kept_numbers(const ClothModel& model, const Hierarchy& hierarchy)
-{
-    if (hierarchy.empty() || model.solver == Solver::paper) return {};
-    const SolverLevel& cloth = hierarchy.levels.front();
-    const auto size = static_cast<std::size_t>(cloth.size);
-    const auto planes = [&](int first, int count) {
-        return ArenaRange{static_cast<std::size_t>(cloth.base) + static_cast<std::size_t>(first) * size,
-                          static_cast<std::size_t>(count) * size};
-    };
-    return {planes(plane_touched, plane_firm + 1 - plane_touched)};
-}
-
 namespace {
 
 /// One for each slot that a cloth's solver reads. Those that share a slot have as many parts.
@@ -150,7 +155,8 @@ std::vector<Pass> summing_passes(const ClothModel& model)
         passes.insert(passes.end(),
                       {Pass::acad_begin, model.is_sheet() ? Pass::sheet_marks : Pass::mesh_limits});
     else
-        passes.insert(passes.end(), {Pass::step_begin, Pass::step_end});
+        passes.insert(passes.end(), {Pass::step_begin, Pass::step_end,
+                                     model.is_sheet() ? Pass::sheet_multiply : Pass::mesh_multiply});
     return passes;
 }
 
@@ -192,10 +198,10 @@ SolverState<T>::SolverState(const ClothModel& model, const Hierarchy& hierarchy)
 }
 
 template <class T>
-void SolverState<T>::forget(const ClothModel& model)
+void SolverState<T>::put(std::size_t first, std::span<const float> values)
 {
-    for (const ArenaRange& kept : kept_numbers(model, *hierarchy_))
-        std::fill_n(arena_.data() + kept.first, kept.count, T(0));
+    std::transform(values.begin(), values.end(), arena_.data() + first,
+                   [](float a) { return static_cast<T>(a); });
 }
 
 template <class T>

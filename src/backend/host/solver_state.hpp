@@ -20,12 +20,6 @@ SolverConstants<T> make_solver_constants(const ClothModel& model, double step_le
 template <class T>
 void set_first_numbers(const ClothModel& model, const Hierarchy& hierarchy, T* arena);
 
-/// What a solver keeps from step to step lies in an arena in these places: zeros know of no step.
-struct ArenaRange {
-    std::size_t first = 0, count = 0;
-};
-std::vector<ArenaRange> kept_numbers(const ClothModel& model, const Hierarchy& hierarchy);
-
 /// The parts that the sums of a cloth's solver are left in, by slot.
 struct SumParts {
     SumParts(const ClothModel& model, const Hierarchy& hierarchy);  ///< of a hierarchy that is not empty
@@ -56,8 +50,8 @@ public:
     /// Runs a pass that has one invocation, and by the scalar kernels a part of any other.
     void run(const Call& call, const SolverContext<T>& context, std::size_t begin, std::size_t end) const;
 
-    /// Forgets what it keeps from step to step: nodes are somewhere else now.
-    void forget(const ClothModel& model);
+    /// Overwrites numbers of the arena.
+    void put(std::size_t first, std::span<const float> values);
     /// Takes over the mass that the model has of a node now.
     void take_mass(const ClothModel& model, std::size_t node);
 

@@ -62,7 +62,6 @@ public:
                std::span<const Vec3> velocities) override
     {
         cloths_[cloth].write(positions, velocities);
-        solvers_[cloth].forget(cloths_[cloth].model);
     }
     void take_mass(std::uint32_t cloth, std::uint32_t node) override
     {
@@ -83,6 +82,10 @@ public:
         values.clear();
         for (const double number : solvers_[cloth].arena().subspan(first, count))
             values.push_back(static_cast<float>(number));
+    }
+    void write_solver_numbers(std::uint32_t cloth, std::size_t first, std::span<const float> values) override
+    {
+        solvers_[cloth].put(first, values);
     }
     MeasureTotals measures(std::uint32_t cloth) override { return cloths_[cloth].totals(); }
     const PassClock& clock() const override { return clock_; }

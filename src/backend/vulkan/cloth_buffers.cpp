@@ -90,7 +90,6 @@ void ClothBuffers::write(const Device& device, std::span<const Vec3> positions,
         values[i] = float4(velocities[i], static_cast<float>(model_->masses[i]));
     for (const Buffer& buffer : velocity_)
         device.write(buffer, values.data(), values.size() * sizeof(Float4));
-    solver_.forget(device);
 }
 
 void ClothBuffers::take_mass(const Device& device, std::uint32_t node)

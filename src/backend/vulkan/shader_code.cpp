@@ -171,6 +171,15 @@ constexpr std::uint32_t contact_keep[] = {
 constexpr std::uint32_t contact_resume[] = {
 #include "shaders/contact_resume.comp.inc"
 };
+constexpr std::uint32_t newton_polish[] = {
+#include "shaders/newton_polish.comp.inc"
+};
+constexpr std::uint32_t sheet_multiply[] = {
+#include "shaders/sheet_multiply.comp.inc"
+};
+constexpr std::uint32_t mesh_multiply[] = {
+#include "shaders/mesh_multiply.comp.inc"
+};
 constexpr std::uint32_t step_end[] = {
 #include "shaders/step_end.comp.inc"
 };

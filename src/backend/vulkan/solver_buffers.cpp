@@ -34,9 +34,10 @@ struct SolverBlock {
     Float4 curve_damping;
     float relaxations[SolverConstants<float>::most_relaxations]{};
     float tolerances[4]{};
+    float softest[4]{}, compliance[4]{};
     Float4 acad_above_below, acad_near;
     std::uint32_t has_damping = 0, exact_bend = 0, is_graded = 0, contact_is_by_mass = 0;
-    std::uint32_t has[4]{};
+    std::uint32_t has[4]{}, remembers[4]{};
     std::int32_t curve_kinds[4]{};
     std::int32_t bottom_base = 0, part_stride = 0, padding[2]{};
     std::int32_t part_counts[most_slots]{};
@@ -150,6 +151,15 @@ void SolverBuffers::set_constants(double step_length)
     std::copy(std::begin(c.relaxations), std::end(c.relaxations), block.relaxations);
     block.tolerances[0] = c.linear_tolerance;
     block.tolerances[1] = c.newton_tolerance;
+    block.tolerances[2] = c.loose_tolerance;
+    for (std::size_t k = 0; k < spring_class_count; ++k) {
+        block.softest[k] = c.softest[k];
+        block.compliance[k] = c.compliance[k];
+        block.remembers[k] = c.remembers[k] ? 1 : 0;
+        block.remembers[3] |= block.remembers[k];
+    }
+    block.softest[3] = c.softest_limit;
+    block.compliance[3] = c.stiffest_limit;
     block.acad_above_below = {c.acad_above2, c.acad_below2, c.acad_held_above2, c.acad_held_below2};
     block.acad_near = {c.acad_near_above2, c.acad_near_below2, c.is_acad ? 1.0f : 0.0f,
                        c.acad_has_memory ? 1.0f : 0.0f};
@@ -169,14 +179,6 @@ void SolverBuffers::set_constants(double step_length)
 void SolverBuffers::record_scalar_copy(const vk::raii::CommandBuffer& commands) const
 {
     commands.copyBuffer(*scalars_, *scalar_copy_, vk::BufferCopy(0, 0, solver_scalar_count * sizeof(float)));
-}
-
-void SolverBuffers::forget(const Device& device) const
-{
-    for (const ArenaRange& kept : kept_numbers(*model_, model_->hierarchy)) {
-        const std::vector<float> zeros(kept.count);
-        device.write(arena_, zeros.data(), kept.count * sizeof(float), kept.first * sizeof(float));
-    }
 }
 
 bool SolverBuffers::skips(Guard guard) const { return scalar(static_cast<std::size_t>(guard)) != 0; }

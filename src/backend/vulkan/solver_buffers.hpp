@@ -36,8 +36,6 @@ public:
     const Buffer& topology() const { return topology_; }
     const Buffer& multiplier() const { return multiplier_; }
 
-    /// Forgets what it keeps from step to step.
-    void forget(const Device& device) const;
     /// Whether calls of this guard are skipped, by the last copy of the scalars.
     bool skips(Guard guard) const;
     /// Appends the copy of the scalars to where the host reads them.

@@ -182,6 +182,11 @@ public:
         device_->read(cloths_[cloth].solver().arena(), values.data(), count * sizeof(float),
                       first * sizeof(float));
     }
+    void write_solver_numbers(std::uint32_t cloth, std::size_t first, std::span<const float> values) override
+    {
+        device_->write(cloths_[cloth].solver().arena(), values.data(), values.size_bytes(),
+                       first * sizeof(float));
+    }
     MeasureTotals measures(std::uint32_t cloth) override { return cloths_[cloth].totals(); }
     const PassClock& clock() const override { return clock_; }
     std::string device_name() const override

@@ -24,11 +24,14 @@ layout(set = 0, binding = 18, std140) uniform Solver
     vec4 curves[3];          // LimitCurve by class: below, limit, beyond, compressed
     vec4 curve_damping;      // N/m by class
     vec4 relaxations[2];
-    vec4 tolerances;         // of the linear solve, of Newton's method
+    vec4 tolerances;         // of the linear solve, of Newton's method, and its loose one
+    vec4 softest;            // N/m, of limits that remember: by class, and w before their compliance
+    vec4 compliance;         // m/N, by class; w: N/m, the stiffest before that
     vec4 acad_above_below;   // by length squared over rest length squared; z, w: of those held
     vec4 acad_near;          // above, below; z: is it ACAD, w: does it remember
     bool has_damping, exact_bend, is_graded, contact_is_by_mass;
     bvec4 has;               // classes of springs
+    bvec4 remembers;         // by class; w: any
     ivec4 curve_kinds;       // by class
     int bottom_base, part_stride, padding_0, padding_1;
     ivec4 part_counts[4];    // by slot
@@ -46,7 +49,7 @@ SolverLevel level, finer;
 real sums[3] = real[3](0.0f, 0.0f, 0.0f);
 
 // The same for all invocations of a dispatch.
-bool is_skipped() { return push.guard != 32u && scalars[push.guard] != 0.0f; }
+bool is_skipped() { return push.guard != uint(scalar_count) && scalars[push.guard] != 0.0f; }
 SolverLevel level_at(uint k)
 {
     ivec4 a = solver.levels[6u * k], b = solver.levels[6u * k + 1u], c = solver.levels[6u * k + 2u];
@@ -129,7 +132,7 @@ bool sheet_has(int k) { return solver.has[sheet_class(k)]; }
 LimitCurve class_curve(int k)
 {
     vec4 c = solver.curves[k];
-    return LimitCurve(solver.curve_kinds[k], c.x, c.y, c.z, c.w, solver.curve_damping[k]);
+    return LimitCurve(solver.curve_kinds[k], c.x, c.y, c.z, c.w, solver.curve_damping[k], 0.0f);
 }
 LimitCurve sheet_curve(int k) { return class_curve(sheet_class(k)); }
 real sheet_rest(int k)
@@ -153,6 +156,13 @@ real hand_pull() { return parameters.grab_target.w; }
 real hand_hold() { return parameters.rest_lengths_more.z; }
 real linear_tolerance() { return solver.tolerances.x; }
 real newton_tolerance() { return solver.tolerances.y; }
+real loose_tolerance() { return solver.tolerances.z; }
+bool remembers(int k) { return solver.remembers[k]; }
+bool remembers_any() { return solver.remembers.w; }
+real softest(int k) { return solver.softest[k]; }
+real softest_limit() { return solver.softest.w; }
+real compliance(int k) { return solver.compliance[k]; }
+real stiffest_limit() { return solver.compliance.w; }
 
 bool is_last_look() { return push.detail == 1u; }
 bool is_cloth() { return push.level == 0u; }
