@@ -373,6 +373,23 @@ TEST(Constraint, FrictionHoldsBelowItsAngleAndLetsGoAboveIt)
     }
 }
 
+TEST(Constraint, SlackSpringsHoldNoEnergy)
+{
+    // Half as wide as it is at rest: no constraint exerts a force there, and no spring is left.
+    Scene scene;
+    scene.method = Method::constraint;
+    scene.gravity = {};
+    auto cloth = scene.add(Cloth::sheet({.rows = 2, .columns = 2}));
+    cloth->springs.structural.stiffness = cloth->springs.shear.stiffness = 1000;
+    Simulation simulation(scene, test::on(Backend::reference));
+    State state = simulation.state();
+    for (Vec3& x : state.cloths[0].positions) x.x *= 0.5f;
+    simulation.set_state(state);
+    simulation.advance(1 / 60.0);
+    EXPECT_LT(simulation.report().measures.mean_stretch, -0.1);  // of both structural springs along it
+    EXPECT_EQ(simulation.report().measures.elastic_energy, 0);
+}
+
 TEST(Constraint, StaysFiniteAcrossTheGrid)
 {
     // A sample of what `pliant bench stability` runs in full.

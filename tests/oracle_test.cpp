@@ -41,6 +41,7 @@ struct OracleCase {
     double limit = 0;
     double damping = 0;  ///< N s/m
     bool contact = false;
+    double slippery = 1;  ///< of friction
     bool remembers = false;
 };
 void PrintTo(const OracleCase& c, std::ostream* out) { *out << c.name; }
@@ -53,6 +54,7 @@ const OracleCase cases[] = {
     {.name = "sheet_stiff_bend", .bend = SpringRole::constraint, .damping = 0.3},
     {.name = "sheet_springs", .implicit_euler = true, .damping = 0.5},
     {.name = "sheet_contact", .damping = 0.2, .contact = true},
+    {.name = "sheet_slides", .damping = 0.2, .contact = true, .slippery = 0.002},
     {.name = "sheet_quadratic", .quadratic = true, .damping = 0.2, .contact = true},
     {.name = "sheet_remembers", .limit = 0.02, .contact = true, .remembers = true},
     {.name = "disc_remembers", .disc = true, .resists = Resists::both, .remembers = true},
@@ -100,10 +102,10 @@ Scene scene_of(const OracleCase& c, bool taut)
     scene.newton_multigrid.contact_stiffness = contact_stiffness;
     scene.newton_multigrid.friction_speed = 0.05;
     if (c.contact) {
-        scene.add(Plane{.point = {0, -0.008, 0}, .normal = {0.05, 1, -0.1}, .friction = 0.3});
+        scene.add(Plane{.point = {0, -0.008, 0}, .normal = {0.05, 1, -0.1}, .friction = 0.3 * c.slippery});
         scene.add(Sphere{.centre = {0.1, -0.275, 0.02},
                          .radius = 0.285,
-                         .friction = 0.5,
+                         .friction = 0.5 * c.slippery,
                          .keyframes = {{0, {}, {}}, {1, {0.1, 0.2, -0.3}, {0, 40, 0}}}});
     }
     scene.add(cloth);

@@ -217,6 +217,7 @@ private:
         if (!options_.summary_file.empty())
             summary_.write(options_.summary_file, simulation_, seconds_since(start_));
         if (!report.finite) throw Error(ErrorKind::diverged, divergence());
+        warn_of_what_is_not_solved();
         if (!options_.quiet) say_end();
         const int interrupted = InterruptGuard::signal_number();
         if (interrupted)
@@ -246,6 +247,20 @@ private:
                "' is no longer finite; take smaller steps, at least " +
                std::to_string(static_cast<long long>(std::ceil(frame / safe))) +
                " substeps per frame (--set time.substeps=N), or softer springs or heavier nodes";
+    }
+
+    /// What a step leaves unsolved is a part of what inertia and gravity ask of it; as much as that says
+    /// nothing of the motion any more.
+    void warn_of_what_is_not_solved() const
+    {
+        const double residual = simulation_.report().solver.residual_max;
+        if (residual <= 1) return;
+        std::fprintf(
+            stderr,
+            "warning: steps were not solved: the largest residual is %.3g of what inertia and gravity ask of "
+            "a step; take more substeps (--set time.substeps=N) or iterations "
+            "(--set newton_multigrid.newton_iterations=N)\n",
+            residual);
     }
 
     void say_end()

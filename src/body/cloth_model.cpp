@@ -353,6 +353,8 @@ void ClothModel::set_springs(const Cloth& cloth, const Scene& scene)
             springs_of.below = given.limit > 0 ? given.stiffness : 0;
             springs_of.beyond = 1 / given.compliance;
             springs_of.compressed = newton.resists == Resists::both ? springs_of.beyond : 0;
+            // What exerts no force has no energy to report.
+            if (solver == Solver::newton_multigrid) parameters.stiffness[k] = springs_of.below;
         } else {
             springs_of.below = given.stiffness;
         }

@@ -166,6 +166,9 @@ void Panel::draw_state(Session& session, View& view)
                            static_cast<unsigned long long>(report.bad_node));
         offer_reset("Reset##diverged");
     }
+    if (report.solver.residual_last > 1)
+        ImGui::TextColored(warning_colour, "the last step is not solved: residual %.2g",
+                           report.solver.residual_last);
     if (report.device_lost) ImGui::TextColored(warning_colour, "stopped: %s", report.failure.c_str());
     if (!session.notice.empty()) ImGui::TextColored(warning_colour, "%s", session.notice.c_str());
     ImGui::PopTextWrapPos();
