@@ -85,10 +85,6 @@ private:
     const ClothModel& model_;
 };
 
-}  // namespace
-
-namespace {
-
 /// m: the longest side of what a mesh takes up at rest, and the mean of its structural springs.
 std::array<double, 2> sides_of(std::span<const Vec3> positions, std::span<const Spring> springs)
 {

@@ -111,9 +111,6 @@ KERNEL void acad_begin(int o)
     store3(plane_y, o, ahead);
     store(plane_mass, o, mass);
     store(plane_grip, o, real(0.0f));
-    store(plane_press, o, real(0.0f));
-    store(plane_touched, o, real(0.0f));
-    store(plane_firm, o, real(0.0f));
     vec3 change = ahead - node_velocity(o) * step_length();
     sums[0] = sums[0] + mass * dot3(change, change);
 }

@@ -11,8 +11,8 @@
 KERNEL LimitCurve remembered(LimitCurve curve, real slip, real stiffness, real softest_of_class)
 {
     curve.slip = slip;
-    curve.compressed = choose(curve.compressed > 0.0f, largest(stiffness, softest_of_class), real(0.0f));
     curve.beyond = largest(stiffness, softest_of_class);
+    curve.compressed = choose(curve.compressed > 0.0f, curve.beyond, real(0.0f));
     return curve;
 }
 
@@ -68,13 +68,13 @@ KERNEL SpringShare spring_share(LimitCurve curve, vec3 start, vec3 moved, real r
 }
 
 // Contact of a node with the solid parts of the scene: an augmented Lagrangian, as the springs' limits are one. A node that
-// touches a collider remembers the normal force p of the last step, and a soft stiffness k only makes it right:
+// touches a collider remembers its normal force p, and a soft stiffness k only makes it right:
 //   E = 1/2 k max(0, p / k + depth)^2,   p' = k max(0, p / k + depth)
 // So a node at rest lies on the surface, whatever k, and k can be so small that Newton's method is not kept busy by nodes
 // that come and go. Where that lets a node too deep in, as what is pressed on by a whole cloth, k grows.
 // Source: Hestenes, "Multiplier and gradient methods", 1969.
-// Friction is that of Li et al., "Incremental Potential Contact", 2020: the normal force of the last step times the
-// coefficient, growing linearly with the tangential displacement up to `slip`, constant beyond.
+// Friction is that of Li et al., "Incremental Potential Contact", 2020: the normal force that is known (of the last step, and
+// from the middle of this one's iterations on of this one) times the coefficient, growing linearly with the tangential displacement up to `slip`, constant beyond.
 struct Contact
 {
     vec3 force;         // N
@@ -170,6 +170,7 @@ KERNEL void leave_grip(int o, Grip g)
     store3(plane_drag, o, g.drag);
     store(plane_grip, o, choose(is_free, g.grip, real(0.0f)));
 }
+
 // The start of a step. Friction knows the normal force that the last step ended with; of a node that touches a collider
 // without having been found there by a step, what its depth makes of it.
 KERNEL void step_begin(int o)
@@ -195,12 +196,12 @@ KERNEL void step_begin(int o)
 
     if (collider_count() == 0) return;  // nobody asks for friction
     Grip g = no_grip();
-    real touched = load(plane_touched, o);
+    real touched = load(plane_touched, o), press = load(plane_press, o), k_node = contact_stiffness_of(o);
     for (int k = 0; k < collider_count(); ++k) {
         vec3 carried = collider_surface_velocity(collider(k), q) * step_length();
         vec4 contact = collider_gap(collider(k), q + carried);
-        real found = contact_stiffness_of(o) * largest(thickness() - contact.w, real(0.0f));
-        found = choose(touched > 0.0f, choose(is_number(touched, k + 1), load(plane_press, o), real(0.0f)), found);
+        real found = k_node * largest(thickness() - contact.w, real(0.0f));
+        found = choose(touched > 0.0f, choose(is_number(touched, k + 1), press, real(0.0f)), found);
         g = with_collider(g, collider(k), xyz(contact), carried, found);
     }
     leave_grip(o, g);
@@ -216,6 +217,7 @@ KERNEL void contact_change(int o)
     real moved = change * reciprocal(choose(mass > 0.0f, mass, real(1.0f)));
     sums[0] = sums[0] + mass * moved * moved;
 }
+
 // How firm the contact of a node is to be: a depth of more than a tenth of a millimetre makes it firmer, one of less lets
 // it be softer from step to step.
 KERNEL real firm_for(real firm, real depth)

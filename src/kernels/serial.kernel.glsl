@@ -13,6 +13,13 @@ KERNEL void acad_check()
     set_scalar(scalar_idle, real(total(sum_active) > 0.0f ? 0.0f : 1.0f));
 }
 
+// The energies of a look are those that the line search goes by.
+KERNEL void accept_energies()
+{
+    set_scalar(scalar_energy, total(sum_spring_energy) + total(sum_node_energy));
+    set_scalar(scalar_contact_energy, total(sum_contact_energy));
+}
+
 KERNEL void solve_begin()
 {
     bool idle = scalar(scalar_idle) > 0.0f;
@@ -24,8 +31,7 @@ KERNEL void solve_begin()
     set_scalar(scalar_residual_last, real(0.0f));
     if (idle) return;
     set_scalar(scalar_load, total(sum_load));
-    set_scalar(scalar_energy, total(sum_spring_energy) + total(sum_node_energy));
-    set_scalar(scalar_contact_energy, total(sum_contact_energy));
+    accept_energies();
 }
 
 KERNEL void linear_start()
@@ -129,8 +135,7 @@ KERNEL void contact_check()
 }
 KERNEL void contact_resume()
 {
-    set_scalar(scalar_energy, total(sum_spring_energy) + total(sum_node_energy));
-    set_scalar(scalar_contact_energy, total(sum_contact_energy));
+    accept_energies();
 }
 
 KERNEL void solve_end()

@@ -22,9 +22,8 @@ public:
     /// - acad: when the solver marked it as a limit, and it is beyond that (as constraint where steps are too
     ///   long for springs alone);
     /// - the paper's solver: when it has a row of the system;
-    /// - constraint: when its limit remembers a force; by a penalty, when it is beyond its limit, and both
-    /// its
-    ///   nodes feel a force.
+    /// - constraint: when its limit remembers a force;
+    /// - constraint by a penalty: when it is beyond its limit, and both its nodes feel a force.
     void read(PassRunner& runner, std::uint32_t model, std::span<const Vec3> positions,
               std::span<const float> forces, std::vector<std::uint32_t>& held);
 

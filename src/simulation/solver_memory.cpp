@@ -13,7 +13,8 @@ struct ArenaRange {
 std::vector<ArenaRange> kept_numbers(const ClothModel& model)
 {
     const Hierarchy& hierarchy = model.hierarchy;
-    if (hierarchy.empty() || model.solver == Solver::paper) return {};
+    // A step of ACAD that makes springs good remembers nothing of these.
+    if (hierarchy.empty() || model.solver == Solver::paper || model.corrects_steps()) return {};
     const SolverLevel& cloth = hierarchy.levels.front();
     const auto size = static_cast<std::size_t>(cloth.size);
     const auto planes = [&](int first, int count) {

@@ -80,7 +80,7 @@ constexpr std::uint32_t detail_of(std::uint32_t source, std::uint32_t relaxation
     return source | relaxation << 1;
 }
 
-/// Details of sheet_gather: the first look of a step, see contact_at; the last one, for the energy alone.
+/// A detail of sheet_gather: the last look of a step, for the energy alone.
 constexpr std::uint32_t last_look = 1;
 
 /// Sums that a pass leaves in parts.

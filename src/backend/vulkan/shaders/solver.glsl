@@ -25,8 +25,8 @@ layout(set = 0, binding = 18, std140) uniform Solver
     vec4 curve_damping;      // N/m by class
     vec4 relaxations[2];
     vec4 tolerances;         // of the linear solve, of Newton's method, and its loose one
-    vec4 softest;            // N/m, of limits that remember: by class, and w before their compliance
-    vec4 compliance;         // m/N, by class; w: N/m, the stiffest before that
+    vec4 softest;            // N/m, of limits that remember: by class with their compliance; w: without it
+    vec4 compliance;         // m/N, by class; w: N/m, the stiffest limit, without its compliance
     vec4 acad_above_below;   // by length squared over rest length squared; z, w: of those held
     vec4 acad_near;          // above, below; z: is it ACAD, w: does it remember
     bool has_damping, exact_bend, is_graded, contact_is_by_mass;
