@@ -356,6 +356,9 @@ TEST_F(Record, SummaryOfASolvedRunTellsOfItsSolver)
                                      {"iterations_mean", solver.iterations_mean},
                                      {"iterations_max", solver.iterations_max},
                                      {"residual_max", solver.residual_max},
+                                     {"frames_cut", solver.frames_cut},
+                                     {"steps_added", solver.steps_added},
+                                     {"searches_refused", solver.searches_refused},
                                      {"energy_lost", solver.energy_lost},
                                      {"active_mean", solver.active_mean},
                                      {"active_max", solver.active_max}};

@@ -84,7 +84,7 @@ std::uint32_t run_steps(PassRunner& runner, const ClothModel& model, std::uint32
 MeasureTotals measures_of(PassRunner& runner, const ClothModel& model)
 {
     Program program{1, {}, 0};
-    append_measures({&model, 1}, 0, 0, program.calls);
+    append_measures(model, 0, 0, 0, program.calls);
     runner.run(program, {0, 0, {}, true});
     return runner.measures(0);
 }

@@ -253,14 +253,29 @@ private:
     /// nothing of the motion any more.
     void warn_of_what_is_not_solved() const
     {
-        const double residual = simulation_.report().solver.residual_max;
-        if (residual <= 1) return;
-        std::fprintf(
-            stderr,
-            "warning: steps were not solved: the largest residual is %.3g of what inertia and gravity ask of "
-            "a step; take more substeps (--set time.substeps=N) or iterations "
-            "(--set newton_multigrid.newton_iterations=N)\n",
-            residual);
+        const SolverReport& solver = simulation_.report().solver;
+        if (!solver.used()) return;
+        if (!(solver.residual_max <= 1))
+            std::fprintf(stderr,
+                         "warning: steps were not solved: the largest residual is %.3g of what inertia and "
+                         "gravity ask of a step; take more substeps (--set time.substeps=N) or iterations "
+                         "(--set newton_multigrid.newton_iterations=N)\n",
+                         solver.residual_max);
+        double limit = 0;
+        for (std::size_t c = 0; c < scene_.cloth_count(); ++c) {
+            const Springs& springs = scene_.cloth(c).springs;
+            limit = std::max({limit, springs.structural.limit, springs.shear.limit});
+        }
+        constexpr double room = 0.05;
+        if (scene_.method == Method::constraint && summary_.max_stretch_peak() > limit + room)
+            std::fprintf(stderr,
+                         "warning: constraints were stretched by %.3g %%: pins and colliders pull the cloth "
+                         "further than it reaches, or faster than a step can follow\n",
+                         100 * summary_.max_stretch_peak());
+        if (solver.frames_cut > 0 && !options_.quiet)
+            std::printf("%llu frames were taken anew in shorter steps, %llu more in all\n",
+                        static_cast<unsigned long long>(solver.frames_cut),
+                        static_cast<unsigned long long>(solver.steps_added));
     }
 
     void say_end()

@@ -107,6 +107,10 @@ struct SolverReport {
     double iterations_mean = 0;        ///< linear iterations (V-cycles; of the solver paper, of CG) per step
     std::uint32_t iterations_max = 0;  ///< in one step
     double residual_max = 0;           ///< largest residual that a step ended with
+    /// Frames of a cloth that were taken anew in shorter steps (NewtonMultigridOptions::step_cuts), since the
+    /// residual of a step was above 1, and how many steps more they took.
+    std::uint64_t frames_cut = 0, steps_added = 0;
+    std::uint64_t searches_refused = 0;  ///< Newton steps of which nothing lowered the energy
     /// J: work that the residual forces took from the cloth, against the method's own balance.
     double energy_lost = 0;
     double active_mean = 0;             ///< constraints that were active, per step
@@ -167,6 +171,7 @@ struct State {
     /// What constraints and contact remember of their forces, as state() gives it; empty, and they begin
     /// anew, which is right where nodes are put somewhere else.
     std::vector<std::vector<float>> memory = {};
+    double step = 0;  ///< s, the length of the last steps, whose forces are remembered; 0 before the first
 };
 
 /// What a spring is there for.

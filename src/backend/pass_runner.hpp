@@ -78,6 +78,9 @@ public:
     /// Runs the calls in order. Throws only when a device is lost.
     virtual void run(const Program& program, const FrameInput& input) = 0;
 
+    /// What the last program with this among its `keeps` has kept is what counts again.
+    virtual void put_back(const Kept& kept) = 0;
+
     /// Copies a resource into floats, as many per entry as Resource documents, in node, spring or level
     /// order.
     virtual void read(std::uint32_t cloth, Resource resource, std::uint32_t parity,

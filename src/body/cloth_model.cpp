@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <numeric>
 
 #include "body/bending.hpp"
 #include "body/collider_motion.hpp"
@@ -158,6 +159,7 @@ ClothModel::ClothModel(const Cloth& cloth, const Scene& scene)
         length_across = side;
         springs_across = side / spring;
     }
+    mean_mass = std::accumulate(masses.begin(), masses.end(), 0.0) / static_cast<double>(node_count());
     if (method == Method::acad && solver == Solver::newton_multigrid && scene.time.substeps > 0) {
         acad_implicit = 1 / (scene.time.frame_rate * scene.time.substeps) > stable_step();
         for (std::size_t k = 0; acad_implicit && k < spring_class_count; ++k) {
@@ -302,9 +304,7 @@ bool ClothModel::remembers(SpringClass of) const
 // 0.2 %.
 double ClothModel::softest_limit(double step_length) const
 {
-    double mass = 0;
-    for (const double m : masses) mass += m;
-    const double line = mass / static_cast<double>(node_count()) * springs_across * springs_across;
+    const double line = mean_mass * springs_across * springs_across;
     const double weight = std::sqrt(dot(parameters.gravity, parameters.gravity)) / length_across;
     return line * std::max((meets_colliders ? 4 : 1) * 4.6 / (step_length * step_length), 500 * weight);
 }

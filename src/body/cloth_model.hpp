@@ -110,8 +110,14 @@ public:
     /// laws/limit.law.glsl.
     bool remembers(SpringClass of) const;
     bool remembers_any() const { return remembers(SpringClass::structural) || remembers(SpringClass::shear); }
-    /// N/m: the softest stiffness by which such a limit is made right, in steps of so many seconds.
+    /// N/m: the softest stiffness by which such a limit is made right, in steps of so many seconds; and of
+    /// springs of a class, with their compliance.
     double softest_limit(double step_length) const;
+    double softest_limit(SpringClass of, double step_length) const
+    {
+        const double softest = softest_limit(step_length);
+        return softest / (1 + softest / limited[static_cast<std::size_t>(of)].beyond);
+    }
     /// 1/kg; 0 of a pinned node.
     double inverse_mass(std::size_t node) const { return pinned[node] ? 0 : 1 / masses[node]; }
     /// Lets go of the positions and velocities at the start, once a backend has them.
@@ -189,6 +195,7 @@ public:
     bool meets_colliders = false;  ///< the scene has some
     double springs_across = 1;     ///< how many structural springs lead in a row from one end to the other
     double length_across = 1;      ///< m: of the cloth at rest
+    double mean_mass = 0;          ///< kg, of a node
     /// At most what the largest eigenvalue of the solver's operator is against its own diagonal blocks: a
     /// term that couples n nodes has none beyond n, and a spring couples two.
     double spectrum_end = 2.5;

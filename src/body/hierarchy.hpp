@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "body/constraint_rows.hpp"
+#include "body/node_layout.hpp"
 #include "kernels/planes.hpp"
 
 namespace pliant {
@@ -39,6 +40,12 @@ struct SolverLevel {
     std::int32_t live = 0, live_edges = 0;
     std::int32_t reserved[5]{};
 
+    /// Where plane 0 begins, against `base`: with the border of a sheet; of a mesh, which has one row and no
+    /// border, with that row.
+    std::int32_t first_of_plane() const
+    {
+        return edge_size > 0 ? static_cast<std::int32_t>(NodeLayout::border_rows) * stride : 0;
+    }
     /// What passes over nodes are divided into: rows of a sheet, and of a mesh, which has but one, groups.
     std::int32_t node_units() const { return rows > 1 ? rows : sum_groups(columns); }
 };

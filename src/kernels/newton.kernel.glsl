@@ -241,12 +241,36 @@ KERNEL void contact_keep(int o)
     leave_grip(o, g);
 }
 
+// A Newton step x of a node that touches nothing knows of no collider ahead, and the next one would have to throw the node
+// out again: on a table hundreds of nodes would come and go for ever. So the step ends where the collider carries the node:
+// at the depth whose force is that of the last step, or the node's own inertia and gravity.
+// Source: projected Newton methods; Bertsekas, 1982.
+KERNEL vec3 stopped_by_colliders(int o, vec3 t, vec3 x)
+{
+    vec3 q = load3(plane_q, o), ahead = load3(plane_y, o) - t;
+    real mass = load(plane_mass, o), touched = load(plane_touched, o), k_node = contact_stiffness_of(o);
+    real give = reciprocal(choose(k_node > 0.0f, k_node, real(1.0f)));
+    for (int k = 0; k < collider_count(); ++k) {
+        real slip = choose(is_number(touched, k + 1), load(plane_press, o) * give, real(0.0f));
+        vec4 before = collider_gap(collider(k), q + t), after = collider_gap(collider(k), q + t + x);
+        mask touches = thickness() - before.w + slip > 0.0f;
+        real carried = largest(largest(slip, dot3(xyz(after), ahead) * (real(0.0f) - mass * give)), real(0.0f));
+        real excess = largest(thickness() - after.w + slip - carried, real(0.0f));
+        x = x + xyz(after) * choose(touches, real(0.0f), excess);
+    }
+    return x;
+}
+
 // Newton's step, whole, and part of it again when the line search refuses it.
 KERNEL void newton_move(int o)
 {
-    vec3 t = load3(plane_t, o);
+    vec3 t = load3(plane_t, o), x = load3(plane_x, o);
+    if (collider_count() > 0) {
+        x = choose(load(plane_mass, o) > 0.0f, stopped_by_colliders(o, t, x), x);
+        store3(plane_x, o, x);
+    }
     store3(plane_u, o, t);
-    store3(plane_t, o, t + load3(plane_x, o));
+    store3(plane_t, o, t + x);
 }
 // What is left of local errors at the end of a step: a damped step of block Jacobi, from what the last look has left. It
 // takes the peaks of stretch at single springs.

@@ -87,7 +87,7 @@ const int scalar_residual_last = 28;
 const int scalar_first_residual2 = 29; // N2: r . r of the last linear system, at first and now
 const int scalar_residual2 = 30;
 const int scalar_contact_energy = 31; // J, accepted
-const int scalar_first_slope = 32;   // J: scalar_slope of the step's first iteration
+const int scalar_refused = 32;      // line searches that ended with no step
 const int scalar_count = 33;
 
 // Sums over nodes or springs that passes leave in parts.

@@ -116,14 +116,13 @@ KERNEL void newton_check()
     real newton = scalar(scalar_newton) + real(1.0f);
     real load = scalar(scalar_load);
     real left = load > 0.0f ? scalar(scalar_slope) * reciprocal(load) : real(0.0f);
-    if (newton < 1.5f) set_scalar(scalar_first_slope, scalar(scalar_slope));
     set_scalar(scalar_newton, newton);
     set_scalar(scalar_residual_last, left <= 0.0f ? real(0.0f) : left * inverse_sqrt(left));
-    // A step that has much to do may leave more of it.
-    real some = real(1e-3f) * (newton < 1.5f ? scalar(scalar_slope) : scalar(scalar_first_slope));
-    real loose = loose_tolerance() * loose_tolerance() * load;
-    real goal = largest(newton_tolerance() * newton_tolerance() * load, some < loose ? some : loose);
-    bool done = scalar(scalar_slope) <= goal || !(scalar(scalar_step) > 0.0f);
+    // After so many, only what is not solved at all goes on.
+    real tolerance = newton + 0.5f > enough_iterations() ? real(1.0f) : newton_tolerance();
+    bool solved = scalar(scalar_slope) <= tolerance * tolerance * load;
+    bool refused = !(scalar(scalar_step) > 0.0f), done = solved || refused;
+    if (refused) set_scalar(scalar_refused, scalar(scalar_refused) + real(1.0f));
     if (done) set_scalar(scalar_newton_done, real(1.0f));
 }
 

@@ -15,10 +15,17 @@ namespace {
 /// The object "solver" of the summary.
 nlohmann::ordered_json solver_summary(const Scene& scene, const SolverReport& report)
 {
-    return {{"name", name_of(scene.solver)},           {"newton_mean", report.newton_mean},
-            {"newton_max", report.newton_max},         {"iterations_mean", report.iterations_mean},
-            {"iterations_max", report.iterations_max}, {"residual_max", report.residual_max},
-            {"energy_lost", report.energy_lost},       {"active_mean", report.active_mean},
+    return {{"name", name_of(scene.solver)},
+            {"newton_mean", report.newton_mean},
+            {"newton_max", report.newton_max},
+            {"iterations_mean", report.iterations_mean},
+            {"iterations_max", report.iterations_max},
+            {"residual_max", report.residual_max},
+            {"frames_cut", report.frames_cut},
+            {"steps_added", report.steps_added},
+            {"searches_refused", report.searches_refused},
+            {"energy_lost", report.energy_lost},
+            {"active_mean", report.active_mean},
             {"active_max", report.active_max}};
 }
 

@@ -363,6 +363,7 @@ void fields(auto& at, Is<NewtonMultigridOptions> auto& solver)
     at.number("newton_tolerance", solver.newton_tolerance, fraction, "");
     at.number("linear_iterations", solver.linear_iterations, {1, 10'000}, "V-cycles");
     at.number("linear_tolerance", solver.linear_tolerance, fraction, "");
+    at.number("step_cuts", solver.step_cuts, {0, 8}, "");
     at.number("smoothing", solver.smoothing, {1, 8}, "");
     at.choice("preconditioner", solver.preconditioner, preconditioner_names);
     at.choice("enforcement", solver.enforcement, enforcement_names);

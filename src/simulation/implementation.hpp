@@ -2,12 +2,12 @@
 // read back. Stepping is in stepping.cpp, reading in reading.cpp; simulation.cpp is the public face.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -17,6 +17,7 @@
 #include "pliant/simulation.hpp"
 #include "simulation/hand.hpp"
 #include "simulation/held_springs.hpp"
+#include "solve/frame.hpp"
 
 namespace pliant {
 
@@ -38,11 +39,22 @@ public:
 
     void advance(double duration);
     void run_steps(std::uint32_t steps, double step);
+    void run_program(const Program& program, std::uint32_t steps, double step);
+    /// Takes the steps of a cloth that were not solved anew, in shorter ones, until they are.
+    void cut_steps(std::uint32_t model, std::uint32_t steps, double step, std::uint32_t from_parity);
+    Kept kept(std::uint32_t model, std::uint32_t steps, std::uint32_t from_parity) const;
+    /// Of limits and contact, that they are of steps of this length from now on.
+    void fit_memory(std::uint32_t model, double step);
+    double solver_number(std::uint32_t model, int scalar)
+    {
+        return runner->solver_scalar(model, static_cast<std::size_t>(scalar));
+    }
     /// Adds the solver's counters of the program that has just run.
     void count_solves();
     /// A time within a millionth of a frame of a whole frame is that frame's: sums of 1/60 must reach 5.0.
     double on_frame(double time, double advanced) const;
-    const Program& frame_program(std::uint32_t steps);
+    /// With `only`, the frame of that model alone.
+    const Program& frame_program(std::uint32_t steps, std::uint32_t only = no_cloth);
     /// Keeps the reason in memory that is there already: this may be about memory.
     void stop(std::string_view reason) noexcept;
 
@@ -120,12 +132,13 @@ public:
     std::unique_ptr<PassRunner> runner;
     VulkanRunner* device_state = nullptr;
     double stable_step = 0;
+    double memory_step = 0;  ///< s, of the steps that solvers remember things of; 0: of none yet
     bool colliders_rest = true;
     std::optional<Hand> hand;
     std::vector<PlacedCollider> placed;
     std::vector<std::vector<Vec3>> attached;  ///< by cloth, see FrameInput
-    /// By steps, parity and the model that a hand holds.
-    std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, Program> programs;
+    /// By steps, parity, the model that a hand holds, and that which is stepped alone.
+    std::map<std::array<std::uint32_t, 4>, Program> programs;
     /// By model and parity.
     std::map<std::pair<std::uint32_t, std::uint32_t>, Program> drawing_programs, multiplier_programs;
     std::uint64_t next_program_id = 1;

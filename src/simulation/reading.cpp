@@ -12,7 +12,7 @@ namespace pliant {
 
 State Simulation::Implementation::state()
 {
-    State now{report.simulated_seconds, {}, {}};
+    State now{report.simulated_seconds, {}, {}, memory_step};
     for (std::size_t c = 0; c < places.size(); ++c) {
         const auto x = values(c, Resource::position), v = values(c, Resource::velocity);
         now.cloths.push_back({{x.begin(), x.end()}, {v.begin(), v.end()}});
@@ -53,6 +53,7 @@ void Simulation::Implementation::set_state(const State& state)
         const bool knows = m < state.memory.size() && state.memory[m].size() == solver_memory_size(models[m]);
         put_solver_memory(*runner, models[m], m, knows ? state.memory[m] : std::vector<float>{});
     }
+    memory_step = state.step;
     report.simulated_seconds = state.time;
     report.finite = true;
     idle_seconds = 0;

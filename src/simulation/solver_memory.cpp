@@ -1,16 +1,13 @@
 #include "simulation/solver_memory.hpp"
 
+#include <algorithm>
+#include <span>
+
 #include "kernels/planes.hpp"
 
 namespace pliant {
-namespace {
 
-/// Numbers of the arena (Hierarchy).
-struct ArenaRange {
-    std::size_t first = 0, count = 0;
-};
-
-std::vector<ArenaRange> kept_numbers(const ClothModel& model)
+std::vector<ArenaRange> solver_memory_ranges(const ClothModel& model)
 {
     const Hierarchy& hierarchy = model.hierarchy;
     // A step of ACAD that makes springs good remembers nothing of these.
@@ -18,7 +15,8 @@ std::vector<ArenaRange> kept_numbers(const ClothModel& model)
     const SolverLevel& cloth = hierarchy.levels.front();
     const auto size = static_cast<std::size_t>(cloth.size);
     const auto planes = [&](int first, int count) {
-        return ArenaRange{static_cast<std::size_t>(cloth.base) + static_cast<std::size_t>(first) * size,
+        return ArenaRange{static_cast<std::size_t>(cloth.base + cloth.first_of_plane()) +
+                              static_cast<std::size_t>(first) * size,
                           static_cast<std::size_t>(count) * size};
     };
     std::vector<ArenaRange> kept = {planes(plane_touched, plane_firm + 1 - plane_touched)};
@@ -31,12 +29,10 @@ std::vector<ArenaRange> kept_numbers(const ClothModel& model)
     return kept;
 }
 
-}  // namespace
-
 std::vector<float> solver_memory(PassRunner& runner, const ClothModel& model, std::uint32_t index)
 {
     std::vector<float> memory, part;
-    for (const ArenaRange& kept : kept_numbers(model)) {
+    for (const ArenaRange& kept : solver_memory_ranges(model)) {
         runner.solver_numbers(index, kept.first, kept.count, part);
         memory.insert(memory.end(), part.begin(), part.end());
     }
@@ -46,7 +42,7 @@ std::vector<float> solver_memory(PassRunner& runner, const ClothModel& model, st
 std::size_t solver_memory_size(const ClothModel& model)
 {
     std::size_t size = 0;
-    for (const ArenaRange& kept : kept_numbers(model)) size += kept.count;
+    for (const ArenaRange& kept : solver_memory_ranges(model)) size += kept.count;
     return size;
 }
 
@@ -55,10 +51,39 @@ void put_solver_memory(PassRunner& runner, const ClothModel& model, std::uint32_
 {
     const std::vector<float> nothing(memory.empty() ? solver_memory_size(model) : 0);
     std::span<const float> left = memory.empty() ? nothing : memory;
-    for (const ArenaRange& kept : kept_numbers(model)) {
+    for (const ArenaRange& kept : solver_memory_ranges(model)) {
         runner.write_solver_numbers(index, kept.first, left.first(kept.count));
         left = left.subspan(kept.count);
     }
+}
+
+void fit_solver_memory(PassRunner& runner, const ClothModel& model, std::uint32_t index, double from,
+                       double to)
+{
+    if (!(from > to) || !model.remembers_any()) return;  // a limit that is stiffer than need be is as good
+    const SolverLevel& cloth = model.hierarchy.levels.front();
+    const ArenaRange limits = solver_memory_ranges(model).back();  // slips, and then as many stiffnesses
+    std::vector<float> numbers;
+    runner.solver_numbers(index, limits.first, limits.count, numbers);
+    const std::span slips = std::span(numbers).first(limits.count / 2);
+    const std::span stiffnesses = std::span(numbers).last(limits.count / 2);
+    const auto class_of = [&](std::size_t k) {
+        if (model.is_sheet())
+            return k / static_cast<std::size_t>(cloth.size) % 2 == 0 ? SpringClass::structural
+                                                                     : SpringClass::shear;
+        const std::size_t edge = std::min(k, static_cast<std::size_t>(cloth.edges) - 1);
+        return static_cast<SpringClass>(
+            model.hierarchy.topology[static_cast<std::size_t>(cloth.edge_ends) + 3 * edge + 2]);
+    };
+    for (std::size_t k = 0; k < slips.size(); ++k) {
+        const SpringClass of = class_of(k);
+        if (!model.remembers(of)) continue;
+        const auto stiffness = [&](double step) {
+            return std::max(double{stiffnesses[k]}, model.softest_limit(of, step));
+        };
+        slips[k] = static_cast<float>(slips[k] * stiffness(from) / stiffness(to));
+    }
+    runner.write_solver_numbers(index, limits.first, slips);
 }
 
 }  // namespace pliant

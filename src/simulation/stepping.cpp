@@ -8,7 +8,7 @@
 #include "kernels/planes.hpp"
 #include "pliant/extremes.hpp"
 #include "simulation/implementation.hpp"
-#include "solve/frame.hpp"
+#include "simulation/solver_memory.hpp"
 #include "solve/mass_spring.hpp"
 
 namespace pliant {
@@ -115,22 +115,31 @@ void Simulation::Implementation::start_runner(const SimulationOptions& options)
 void Simulation::Implementation::measure()
 {
     Program program{next_program_id++, {}, parity};
-    append_measures(models, parity, 0, program.calls);
+    for (std::uint32_t m = 0; m < models.size(); ++m) append_measures(models[m], m, parity, 0, program.calls);
     runner->run(program, input(0));
 }
 
 std::pair<std::uint64_t, double> Simulation::Implementation::steps_of(double duration) const
 {
+    constexpr double rounding = 1e-9;
+    // Limits that remember are made right from step to step. In steps of a second they are stable, and wrong:
+    // whoever asks for one has several. (Springs alone find their rest by such steps.)
+    constexpr double longest = 1 / 20.0;
+    const bool remembers =
+        std::any_of(models.begin(), models.end(), [](const ClothModel& m) { return m.remembers_any(); });
+    const auto divided = [&](double count, double step) {
+        const double parts = remembers ? std::max(1.0, std::ceil(step / longest * (1 - rounding))) : 1;
+        return std::pair(static_cast<std::uint64_t>(count * parts), step / parts);
+    };
     if (scene.time.substeps > 0) {
         const double step = 1 / (scene.time.frame_rate * scene.time.substeps);
-        return {static_cast<std::uint64_t>(std::max(1ll, std::llround(duration / step))), step};
+        return divided(std::max(1.0, std::round(duration / step)), step);
     }
     if (stepped_method(scene) ==
         Method::constraint) {  // implicit: a step is as long as a frame unless asked for
         const double frames = std::max(1.0, std::round(duration * scene.time.frame_rate));
-        return {static_cast<std::uint64_t>(frames), duration / frames};
+        return divided(frames, duration / frames);
     }
-    constexpr double rounding = 1e-9;
     const double count = std::max(1.0, std::ceil(duration / stable_step * (1 - rounding)));
     return {static_cast<std::uint64_t>(count), duration / count};
 }
@@ -168,16 +177,58 @@ void Simulation::Implementation::advance(double duration)
 
 void Simulation::Implementation::run_steps(std::uint32_t steps, double step)
 {
+    for (std::uint32_t m = 0; m < models.size(); ++m) fit_memory(m, step);
+    memory_step = step;
     const Program& program = frame_program(steps);
+    const std::uint32_t from_parity = std::exchange(parity, program.parity_after);
+    run_program(program, steps, step);
+    for (std::uint32_t m = 0; m < models.size(); ++m)
+        if (is_implicit(models[m])) cut_steps(m, steps, step, from_parity);
+    report.simulated_seconds = on_frame(report.simulated_seconds + steps * step, steps * step);
+    report.steps += steps;
+    if (uses_solver(stepped_method(scene))) count_solves();
+}
+
+void Simulation::Implementation::run_program(const Program& program, std::uint32_t steps, double step)
+{
     hold(step);
     place_colliders(steps, step);
     place_attached(steps, step);
     place_goals(steps, step);
     runner->run(program, input(step));
-    parity = program.parity_after;
-    report.simulated_seconds = on_frame(report.simulated_seconds + steps * step, steps * step);
-    report.steps += steps;
-    if (uses_solver(stepped_method(scene))) count_solves();
+}
+
+Kept Simulation::Implementation::kept(std::uint32_t model, std::uint32_t steps,
+                                      std::uint32_t from_parity) const
+{
+    // One step leaves the state that it starts from where it is.
+    return {model, from_parity, steps > 1, solver_memory_ranges(models[model])};
+}
+
+void Simulation::Implementation::fit_memory(std::uint32_t model, double step)
+{
+    if (memory_step > 0) fit_solver_memory(*runner, models[model], model, memory_step, step);
+}
+
+void Simulation::Implementation::cut_steps(std::uint32_t model, std::uint32_t steps, double step,
+                                           std::uint32_t from_parity)
+{
+    // An odd number of parts, so that the state ends in the same copy as those of the other cloths.
+    constexpr std::uint32_t parts = 3;
+    double residual = solver_number(model, scalar_residual_max);
+    std::uint32_t all_parts = 1;
+    for (std::uint32_t cut = 0; cut < models[model].newton.step_cuts && !(residual <= 1); ++cut) {
+        runner->put_back(kept(model, steps, from_parity));
+        all_parts *= parts;
+        fit_memory(model, step / all_parts);
+        run_program(frame_program(steps * all_parts, model), steps * all_parts, step / all_parts);
+        const double before = std::exchange(residual, solver_number(model, scalar_residual_max));
+        if (!(residual < before)) break;  // another cut would not help
+    }
+    if (all_parts == 1) return;
+    ++report.solver.frames_cut;
+    report.solver.steps_added += std::uint64_t{steps} * (all_parts - 1);
+    hold(step);
 }
 
 void Simulation::Implementation::count_solves()
@@ -187,9 +238,7 @@ void Simulation::Implementation::count_solves()
     s.newton_last = s.iterations_last = 0;
     s.residual_last = 0;
     for (std::uint32_t c = 0; c < models.size(); ++c) {
-        const auto number = [&](int scalar) {
-            return runner->solver_scalar(c, static_cast<std::size_t>(scalar));
-        };
+        const auto number = [&](int scalar) { return solver_number(c, scalar); };
         const auto whole = [&](int scalar) { return static_cast<std::uint32_t>(number(scalar)); };
         s.solves += whole(scalar_solves);
         newton_sum += number(scalar_newton_sum);
@@ -199,6 +248,7 @@ void Simulation::Implementation::count_solves()
         s.iterations_max = std::max(s.iterations_max, whole(scalar_iterations_max));
         s.residual_max = larger(s.residual_max, number(scalar_residual_max));
         s.energy_lost += number(scalar_energy_lost);
+        if (is_implicit(models[c])) s.searches_refused += whole(scalar_refused);
         s.active_max = std::max<std::uint64_t>(s.active_max, whole(scalar_active_max));
         s.active_last += whole(scalar_active_last);
         s.newton_last = std::max(s.newton_last, whole(scalar_newton_last));
@@ -220,15 +270,19 @@ double Simulation::Implementation::on_frame(double time, double advanced) const
     return std::abs(frames - nearest) < tolerance ? nearest / scene.time.frame_rate : time;
 }
 
-const Program& Simulation::Implementation::frame_program(std::uint32_t steps)
+const Program& Simulation::Implementation::frame_program(std::uint32_t steps, std::uint32_t only)
 {
     const std::uint32_t grabbed = hand ? hand->model : no_cloth;
-    const auto key = std::make_tuple(steps, parity, grabbed);
+    // A cloth's steps that are taken anew have begun in the copy that the first ones began in.
+    const std::uint32_t from_parity = only == no_cloth ? parity : (parity ^ steps) & 1;
+    const std::array key = {steps, from_parity, grabbed, only};
     auto found = programs.find(key);
     if (found == programs.end() && programs.size() >= most_programs) programs.clear();
     if (found == programs.end()) {
         Program program{next_program_id++, {}, 0};
-        program.parity_after = append_frame(models, steps, parity, program.calls, grabbed);
+        program.parity_after = append_frame(models, steps, from_parity, program.calls, grabbed, only);
+        for (std::uint32_t m = 0; only == no_cloth && m < models.size(); ++m)
+            if (is_implicit(models[m])) program.keeps.push_back(kept(m, steps, from_parity));
         found = programs.emplace(key, std::move(program)).first;
     }
     return found->second;

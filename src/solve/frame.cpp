@@ -8,14 +8,14 @@
 #include "solve/volume.hpp"
 
 namespace pliant {
-namespace {
 
-/// Whether a step is one of append_constraint_step, which has the hand's pull within it.
 bool is_implicit(const ClothModel& cloth)
 {
     return !cloth.is_body() && uses_solver(cloth.method) && cloth.solver != Solver::paper &&
            !cloth.corrects_steps();
 }
+
+namespace {
 
 void append_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step, std::uint32_t parity,
                  std::vector<Call>& calls)
@@ -58,16 +58,18 @@ void count_guarded(std::vector<Call>& calls)
 }  // namespace
 
 std::uint32_t append_frame(std::span<const ClothModel> cloths, std::uint32_t steps, std::uint32_t parity,
-                           std::vector<Call>& calls, std::uint32_t grabbed)
+                           std::vector<Call>& calls, std::uint32_t grabbed, std::uint32_t only)
 {
-    for (std::uint32_t c = 0; c < cloths.size(); ++c)
+    const std::uint32_t first = only == no_cloth ? 0 : only;
+    const std::uint32_t end = only == no_cloth ? static_cast<std::uint32_t>(cloths.size()) : only + 1;
+    for (std::uint32_t c = first; c < end; ++c)
         if (!cloths[c].hierarchy.empty()) calls.push_back({Pass::solve_reset, c, parity, 0});
     for (std::uint32_t step = 0; step < steps; ++step, parity ^= 1)
-        for (std::uint32_t c = 0; c < cloths.size(); ++c) {
+        for (std::uint32_t c = first; c < end; ++c) {
             if (c == grabbed && !is_implicit(cloths[c])) calls.push_back({Pass::grab, c, parity, step});
             append_step(cloths[c], c, step, parity, calls);
         }
-    append_measures(cloths, parity, steps - 1, calls);
+    for (std::uint32_t c = first; c < end; ++c) append_measures(cloths[c], c, parity, steps - 1, calls);
     count_guarded(calls);
     return parity;
 }

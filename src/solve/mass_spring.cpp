@@ -46,17 +46,14 @@ void append_wind(const ClothModel& cloth, std::uint32_t index, std::uint32_t ste
         calls.push_back({cloth.is_sheet() ? Pass::sheet_wind : Pass::mesh_wind, index, parity, step});
 }
 
-void append_measures(std::span<const ClothModel> cloths, std::uint32_t parity, std::uint32_t step,
+void append_measures(const ClothModel& cloth, std::uint32_t index, std::uint32_t parity, std::uint32_t step,
                      std::vector<Call>& calls)
 {
-    for (std::uint32_t c = 0; c < cloths.size(); ++c) {
-        calls.push_back(
-            {cloths[c].node_centric() ? Pass::sheet_measure : Pass::list_measure, c, parity, step});
-        const std::size_t levels = MeasureTree(cloths[c].node_count()).levels.size();
-        for (std::uint32_t level = 1; level < levels; ++level)
-            calls.push_back({Pass::measure_merge, c, parity, level});
-        if (cloths[c].is_body()) append_volumes(c, parity, calls);
-    }
+    calls.push_back({cloth.node_centric() ? Pass::sheet_measure : Pass::list_measure, index, parity, step});
+    const std::size_t levels = MeasureTree(cloth.node_count()).levels.size();
+    for (std::uint32_t level = 1; level < levels; ++level)
+        calls.push_back({Pass::measure_merge, index, parity, level});
+    if (cloth.is_body()) append_volumes(index, parity, calls);
 }
 
 void append_drawing(const ClothModel& cloth, std::uint32_t index, std::uint32_t parity,

@@ -21,8 +21,8 @@ void append_attachments(const ClothModel& cloth, std::uint32_t index, std::uint3
 void append_wind(const ClothModel& cloth, std::uint32_t index, std::uint32_t step, std::uint32_t parity,
                  std::vector<Call>& calls);
 
-/// Appends the measures of the state copy `parity`, reduced to one value for each cloth.
-void append_measures(std::span<const ClothModel> cloths, std::uint32_t parity, std::uint32_t step,
+/// Appends the measures of the state copy `parity` of one cloth, reduced to one value.
+void append_measures(const ClothModel& cloth, std::uint32_t index, std::uint32_t parity, std::uint32_t step,
                      std::vector<Call>& calls);
 
 /// Appends what drawing one cloth needs beside its positions: normals and strains.

@@ -7,6 +7,9 @@ namespace {
 
 /// How often a Newton step is shortened before it is given up: 1/4, 1/16, 1/64, 1/256, none.
 constexpr std::uint32_t search_tries = 6;
+/// A step whose residual is above 1 after the iterations that are enough for others has more of them. Those
+/// of an impact need them.
+constexpr std::uint32_t while_unsolved = 3;
 
 class StepWriter {
 public:
@@ -27,9 +30,10 @@ public:
         add(Pass::step_begin);
         evaluate(Guard::none);
         add(Pass::solve_begin);
-        for (std::uint32_t k = 1; k <= newton_most(); ++k) {
-            newton_iteration(k == newton_most());
-            if (cloth_.meets_colliders && k < newton_most() && k == (newton_most() + 1) / 2) renew_contact();
+        const std::uint32_t enough = enough_iterations(cloth_), most = while_unsolved * enough;
+        for (std::uint32_t k = 1; k <= most; ++k) {
+            newton_iteration(k == most);
+            if (cloth_.meets_colliders && k == (enough + 1) / 2) renew_contact();
         }
         if (cloth_.remembers_any()) {
             add(Pass::newton_polish);
@@ -51,7 +55,8 @@ public:
         add(Pass::acad_begin, Guard::idle);
         evaluate(Guard::idle);
         add(Pass::solve_begin);
-        for (std::uint32_t k = 1; k <= newton_most(); ++k) newton_iteration(k == newton_most());
+        const std::uint32_t most = enough_iterations(cloth_);
+        for (std::uint32_t k = 1; k <= most; ++k) newton_iteration(k == most);
         add(Pass::acad_end, Guard::idle);
         add(Pass::solve_end);
     }
@@ -83,14 +88,6 @@ public:
     }
 
 private:
-    /// ACAD bounds stretch by stiff limits that come and go; a step of it that is left half solved wins
-    /// energy.
-    std::uint32_t newton_most() const
-    {
-        constexpr std::uint32_t more = 4;
-        return cloth_.newton.newton_iterations * (cloth_.method == Method::acad ? more : 1);
-    }
-
     void add(Pass pass, Guard guard = Guard::none, std::uint32_t level = 0, std::uint32_t detail = 0)
     {
         calls_.push_back({pass, index_, parity_, step_, level, detail, guard});
@@ -183,6 +180,14 @@ private:
 };
 
 }  // namespace
+
+std::uint32_t enough_iterations(const ClothModel& cloth)
+{
+    // ACAD bounds stretch by stiff limits that come and go; a step of it that is left half solved wins
+    // energy.
+    constexpr std::uint32_t of_acad = 4;
+    return cloth.newton.newton_iterations * (cloth.method == Method::acad ? of_acad : 1);
+}
 
 void append_acad_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step, std::uint32_t parity,
                       std::vector<Call>& calls)

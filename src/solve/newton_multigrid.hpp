@@ -10,6 +10,9 @@
 
 namespace pliant {
 
+/// Newton iterations of a step, unless it is not solved by then.
+std::uint32_t enough_iterations(const ClothModel& cloth);
+
 /// Appends one implicit step of one cloth, from the state copy `parity` to the other.
 void append_constraint_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step,
                             std::uint32_t parity, std::vector<Call>& calls);

@@ -97,11 +97,26 @@ constexpr int sum_lanes = 256;
 constexpr int most_sums = 3;  ///< of one pass
 constexpr std::uint32_t solver_scalar_count = scalar_count;
 
+/// Neighbouring numbers of the arena of a cloth's solver (Hierarchy).
+struct ArenaRange {
+    std::size_t first = 0, count = 0;
+};
+
+/// What is kept aside of a cloth before a program, so that its steps can be taken anew
+/// (PassRunner::put_back): numbers of its solver's arena, the solver's scalars, and a copy of the state.
+struct Kept {
+    std::uint32_t cloth = 0;
+    std::uint32_t parity = 0;
+    bool state = true;  ///< false where the program leaves that copy of the state as it is
+    std::vector<ArenaRange> numbers = {};
+};
+
 /// A sequence of calls with an identity, so that a backend can record it once and replay it.
 struct Program {
     std::uint64_t id = 0;  ///< unique among the programs given to one runner
     std::vector<Call> calls;
     std::uint32_t parity_after = 0;  ///< the current copy of the state when it is done
+    std::vector<Kept> keeps = {};    ///< before the first call
 };
 
 /// Passes of soft bodies alone.

@@ -14,6 +14,7 @@
 #include "backend/cpu/spring_list.hpp"
 #include "backend/cpu/state_records.hpp"
 #include "backend/cpu/team.hpp"
+#include "backend/host/kept_state.hpp"
 #include "backend/host/plain_cloth.hpp"
 #include "backend/host/solver_state.hpp"
 #include "backend/pass_runner.hpp"
@@ -40,6 +41,7 @@ struct CpuCloth {
     cpu::SpringList springs;
     cpu::MeasuredSprings measured;
     SolverState<float> solver;
+    KeptState<float> kept;
     cpu::CpuBody body;
     cpu::SheetSteps sheet;
 };
@@ -185,6 +187,10 @@ public:
 
     void run(const Program& program, const FrameInput& input) override
     {
+        for (const Kept& kept : program.keeps) {
+            CpuCloth& cloth = cloths_[kept.cloth];
+            cloth.kept.keep(kept, cloth.plain, cloth.solver);
+        }
         for (std::size_t c = 0; c < cloths_.size(); ++c) {
             const ClothModel& model = cloths_[c].plain.model;
             constants_[c] = StepConstants<float>(model, input.step_length);
@@ -200,6 +206,12 @@ public:
             team_.gather(*jobs_, thread_count(), [&] { run_calls(program, input); });
         else
             run_calls(program, input);
+    }
+    void put_back(const Kept& kept) override
+    {
+        CpuCloth& cloth = cloths_[kept.cloth];
+        cloth.kept.put_back(kept, cloth.plain, cloth.solver);
+        cloth.records.forget();
     }
     void read(std::uint32_t cloth, Resource resource, std::uint32_t parity,
               std::vector<float>& values) override

@@ -35,7 +35,7 @@ struct SolverConstants {
     int held = -1;  ///< offset of the node in a hand, see GrabInput
     Vector3<Number> hand_target{};
     Number hand_pull{}, hand_hold{};
-    Number linear_tolerance{}, newton_tolerance{}, loose_tolerance{};
+    Number linear_tolerance{}, newton_tolerance{}, enough_iterations{};
     // Limits that remember: which classes have them, and numbers of renewed_limit in laws/limit.law.glsl.
     bool remembers[3]{};
     Number softest[3]{}, compliance[3]{};      ///< N/m, with the compliance; m/N

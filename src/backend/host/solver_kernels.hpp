@@ -65,7 +65,7 @@ struct SolverKernels {
     /// there.
     Number* operator_of(const SolverLevel& of) const
     {
-        const int first = of.edge_size > 0 ? context.border_rows * of.stride : 0;
+        const int first = of.first_of_plane();
         return context.arena + (of.base + plane_block * of.size + first - in_groups(plane_block, first));
     }
 
@@ -214,7 +214,7 @@ struct SolverKernels {
     real hand_hold() const { return spread(constants.hand_hold); }
     real linear_tolerance() const { return spread(constants.linear_tolerance); }
     real newton_tolerance() const { return spread(constants.newton_tolerance); }
-    real loose_tolerance() const { return spread(constants.loose_tolerance); }
+    real enough_iterations() const { return spread(constants.enough_iterations); }
     bool remembers(int k) const { return constants.remembers[k]; }
     bool remembers_any() const { return constants.remembers[0] || constants.remembers[1]; }
     real softest(int k) const { return spread(constants.softest[k]); }

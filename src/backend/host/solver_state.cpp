@@ -6,6 +6,7 @@
 
 #include "backend/host/solver_kernels.hpp"
 #include "kernels/planes.hpp"
+#include "solve/newton_multigrid.hpp"
 
 namespace pliant {
 
@@ -77,22 +78,19 @@ SolverConstants<T> make_solver_constants(const ClothModel& model, double step_le
                                                               : of_acad);
     c.slip = number(newton.friction_speed * step_length);
     c.linear_tolerance = number(newton.linear_tolerance);
-    c.newton_tolerance = c.loose_tolerance = number(newton.newton_tolerance);
+    c.newton_tolerance = number(newton.newton_tolerance);
+    c.enough_iterations = number(enough_iterations(model));
     if (step_length > 0 && !model.corrects_steps()) {
         const double softest = model.softest_limit(step_length);
         // A spring that a corner hangs by carries what twenty others do.
-        constexpr double stiffest = 20, loose = 10;
+        constexpr double stiffest = 20;
         c.softest_limit = number(softest);
         c.stiffest_limit = number(stiffest * softest);
         for (std::size_t k = 0; k < spring_class_count; ++k) {
             if (!model.remembers(static_cast<SpringClass>(k))) continue;
-            const double give = 1 / model.limited[k].beyond;
             c.remembers[k] = true;
-            c.compliance[k] = number(give);
-            c.softest[k] = number(softest / (1 + softest * give));
-            // Friction wants to know its normal forces.
-            if (!model.meets_colliders)
-                c.loose_tolerance = number(std::min(1.0, loose * newton.newton_tolerance));
+            c.compliance[k] = number(1 / model.limited[k].beyond);
+            c.softest[k] = number(model.softest_limit(static_cast<SpringClass>(k), step_length));
         }
     }
     // Chebyshev's points on the upper part of the spectrum of D^-1 A, which the smoother has to take care of:
@@ -195,13 +193,6 @@ SolverState<T>::SolverState(const ClothModel& model, const Hierarchy& hierarchy)
     mass_ = AlignedArray<T>(
         NodeLayout(static_cast<std::size_t>(cloth.rows), static_cast<std::size_t>(cloth.columns)).size);
     for (std::size_t i = 0; i < model.node_count(); ++i) take_mass(model, i);
-}
-
-template <class T>
-void SolverState<T>::put(std::size_t first, std::span<const float> values)
-{
-    std::transform(values.begin(), values.end(), arena_.data() + first,
-                   [](float a) { return static_cast<T>(a); });
 }
 
 template <class T>

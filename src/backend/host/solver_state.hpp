@@ -1,6 +1,7 @@
 // One cloth's constraint solver on the host: its numbers, and its passes over parts of them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -51,7 +52,13 @@ public:
     void run(const Call& call, const SolverContext<T>& context, std::size_t begin, std::size_t end) const;
 
     /// Overwrites numbers of the arena.
-    void put(std::size_t first, std::span<const float> values);
+    template <class Number>
+    void put(std::size_t first, std::span<const Number> values)
+    {
+        std::transform(values.begin(), values.end(), arena_.data() + first,
+                       [](Number a) { return static_cast<T>(a); });
+    }
+    void put_scalars(std::span<const T> values) { scalars_.assign(values.begin(), values.end()); }
     /// Takes over the mass that the model has of a node now.
     void take_mass(const ClothModel& model, std::size_t node);
 

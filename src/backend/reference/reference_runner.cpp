@@ -1,6 +1,7 @@
 // The oracle: serial, double, plain loops.
 #include <chrono>
 
+#include "backend/host/kept_state.hpp"
 #include "backend/host/plain_cloth.hpp"
 #include "backend/host/solver_state.hpp"
 #include "backend/pass_runner.hpp"
@@ -10,13 +11,16 @@ namespace {
 
 class ReferenceRunner final : public PassRunner {
 public:
-    explicit ReferenceRunner(std::span<const ClothModel> models) : cloths_(models.begin(), models.end())
+    explicit ReferenceRunner(std::span<const ClothModel> models)
+        : cloths_(models.begin(), models.end()), kept_(models.size())
     {
         for (const ClothModel& model : models) solvers_.emplace_back(model, model.hierarchy);
     }
 
     void run(const Program& program, const FrameInput& input) override
     {
+        for (const Kept& kept : program.keeps)
+            kept_[kept.cloth].keep(kept, cloths_[kept.cloth], solvers_[kept.cloth]);
         std::vector<StepConstants<double>> constants;
         std::vector<SolverConstants<double>> solver_constants;
         for (const auto& cloth : cloths_) {
@@ -52,6 +56,10 @@ public:
             const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
             clock_.add(call.pass, spent.count());
         }
+    }
+    void put_back(const Kept& kept) override
+    {
+        kept_[kept.cloth].put_back(kept, cloths_[kept.cloth], solvers_[kept.cloth]);
     }
     void read(std::uint32_t cloth, Resource resource, std::uint32_t parity,
               std::vector<float>& values) override
@@ -95,6 +103,7 @@ public:
 private:
     std::vector<PlainCloth<double>> cloths_;
     std::vector<SolverState<double>> solvers_;
+    std::vector<KeptState<double>> kept_;
     PassClock clock_;
 };
 

@@ -101,6 +101,57 @@ void ClothBuffers::take_mass(const Device& device, std::uint32_t node)
     for (const Buffer& buffer : velocity_) device.write(buffer, &mass, sizeof mass, at);
 }
 
+std::vector<ClothBuffers::KeptPiece> ClothBuffers::pieces_of(const Kept& kept) const
+{
+    std::vector<KeptPiece> pieces;
+    vk::DeviceSize place = 0;
+    const auto add = [&](const Buffer& buffer, vk::DeviceSize first, vk::DeviceSize size) {
+        pieces.push_back({&buffer, first, place, size});
+        place += size;
+    };
+    if (kept.state)
+        for (const Buffer* buffer : {&position_[kept.parity], &velocity_[kept.parity]})
+            add(*buffer, 0, model_->node_count() * sizeof(Float4));
+    for (const ArenaRange& range : kept.numbers)
+        add(solver_.arena(), range.first * sizeof(float), range.count * sizeof(float));
+    add(solver_.scalars(), 0, solver_scalar_count * sizeof(float));
+    return pieces;
+}
+
+void ClothBuffers::make_room_for(const Device& device, const Kept& kept)
+{
+    const KeptPiece last = pieces_of(kept).back();
+    if (kept_.size < last.place + last.size)
+        kept_ = device.make_buffer(last.place + last.size, {}, Memory::device, "state kept aside");
+}
+
+namespace {
+
+void between_copies(const vk::raii::CommandBuffer& commands)
+{
+    constexpr auto all = vk::AccessFlagBits::eMemoryRead | vk::AccessFlagBits::eMemoryWrite;
+    barrier(commands, vk::PipelineStageFlagBits::eAllCommands, all, vk::PipelineStageFlagBits::eAllCommands,
+            all);
+}
+
+}  // namespace
+
+void ClothBuffers::record_keep(const vk::raii::CommandBuffer& commands, const Kept& kept) const
+{
+    between_copies(commands);
+    for (const KeptPiece& piece : pieces_of(kept))
+        commands.copyBuffer(**piece.buffer, *kept_, vk::BufferCopy(piece.first, piece.place, piece.size));
+    between_copies(commands);
+}
+
+void ClothBuffers::record_put_back(const vk::raii::CommandBuffer& commands, const Kept& kept) const
+{
+    between_copies(commands);
+    for (const KeptPiece& piece : pieces_of(kept))
+        commands.copyBuffer(*kept_, **piece.buffer, vk::BufferCopy(piece.place, piece.first, piece.size));
+    between_copies(commands);
+}
+
 Buffer ClothBuffers::filled(const Device& device, const void* data, std::size_t bytes, const char* name) const
 {
     Buffer buffer = device.make_buffer(bytes, Usage::eStorageBuffer, Memory::device, name);

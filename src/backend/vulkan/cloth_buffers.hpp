@@ -51,6 +51,12 @@ public:
     const Buffer& buffer(Resource resource, std::uint32_t parity) const;
     std::size_t entry_count(Resource resource) const;
 
+    /// Makes room for what a program keeps aside; copies it there, or back again, with the barriers around
+    /// it.
+    void make_room_for(const Device& device, const Kept& kept);
+    void record_keep(const vk::raii::CommandBuffer& commands, const Kept& kept) const;
+    void record_put_back(const vk::raii::CommandBuffer& commands, const Kept& kept) const;
+
     /// Appends the copy of the root of the measures to where the host reads it.
     void record_root_copy(const vk::raii::CommandBuffer& commands) const;
     MeasureTotals totals() const;
@@ -62,13 +68,19 @@ private:
     void make_sets(const Device& device, std::span<const vk::raii::DescriptorSetLayout> layouts);
     /// In all sets of this parity that have the binding.
     void bind(const Device& device, std::uint32_t parity, Binding binding, const Buffer& buffer);
+    /// A piece of a buffer, and where in kept_ it goes.
+    struct KeptPiece {
+        const Buffer* buffer;
+        vk::DeviceSize first, place, size;  ///< bytes
+    };
+    std::vector<KeptPiece> pieces_of(const Kept& kept) const;
     Buffer filled(const Device& device, const void* data, std::size_t bytes, const char* name) const;
 
     const ClothModel* model_;
     MeasureTree tree_;
     std::array<Buffer, 2> position_, velocity_;
     Buffer parameters_, external_force_, spring_force_, slopes_, normal_, strain_, measures_, root_;
-    Buffer springs_, spring_rest_class_, neighbour_start_, neighbours_;
+    Buffer springs_, spring_rest_class_, neighbour_start_, neighbours_, kept_;
     Buffer triangles_, triangle_start_, node_triangles_;
     SolverBuffers solver_;
     BodyBuffers body_;

@@ -283,6 +283,16 @@ void Device::read(const Buffer& source, void* data, std::size_t bytes, std::size
     std::memcpy(data, staging.mapped, bytes);
 }
 
+void Device::run(const std::function<void(const vk::raii::CommandBuffer&)>& record) const
+{
+    const std::scoped_lock turn(staging_turn_);
+    const vk::raii::CommandBuffer& commands = staging_commands_;
+    commands.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
+    record(commands);
+    commands.end();
+    staging_.run(commands);
+}
+
 void barrier(const vk::raii::CommandBuffer& commands, vk::PipelineStageFlags before, vk::AccessFlags written,
              vk::PipelineStageFlags after, vk::AccessFlags read)
 {

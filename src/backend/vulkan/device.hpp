@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -121,6 +122,8 @@ public:
     /// every frame allocates nothing.
     void write(const Buffer& target, const void* data, std::size_t bytes, std::size_t offset = 0) const;
     void read(const Buffer& source, void* data, std::size_t bytes, std::size_t offset = 0) const;
+    /// Runs what `record` records, and waits.
+    void run(const std::function<void(const vk::raii::CommandBuffer&)>& record) const;
 
     /// Messages of the validation layer so far (warnings and errors).
     std::uint64_t validation_messages() const { return validation_messages_; }

@@ -151,7 +151,7 @@ void SolverBuffers::set_constants(double step_length)
     std::copy(std::begin(c.relaxations), std::end(c.relaxations), block.relaxations);
     block.tolerances[0] = c.linear_tolerance;
     block.tolerances[1] = c.newton_tolerance;
-    block.tolerances[2] = c.loose_tolerance;
+    block.tolerances[2] = c.enough_iterations;
     for (std::size_t k = 0; k < spring_class_count; ++k) {
         block.softest[k] = c.softest[k];
         block.compliance[k] = c.compliance[k];

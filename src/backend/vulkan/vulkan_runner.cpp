@@ -117,6 +117,13 @@ public:
         parity_ = program.parity_after;
     }
 
+    void put_back(const Kept& kept) override
+    {
+        device_->run([&](const vk::raii::CommandBuffer& commands) {
+            cloths_[kept.cloth].record_put_back(commands, kept);
+        });
+    }
+
     void read(std::uint32_t cloth, Resource resource, std::uint32_t parity,
               std::vector<float>& values) override
     {
@@ -328,6 +335,7 @@ private:
             bool sets_changed = false;
             for (const Call& call : program.calls)
                 sets_changed |= cloths_[call.cloth].make_room_for(*device_, call.pass);
+            for (const Kept& kept : program.keeps) cloths_[kept.cloth].make_room_for(*device_, kept);
             if (sets_changed || recordings_.size() >= most_recordings) recordings_.clear();
         }
         if (found == recordings_.end()) found = recordings_.emplace(program.id, record(program)).first;
@@ -378,6 +386,8 @@ private:
         const vk::raii::CommandBuffer& commands = recording.commands;
         commands.begin({});
         if (timed) commands.resetQueryPool(*recording.queries, 0, query_count);
+        if (segment.first == 0)
+            for (const Kept& kept : program.keeps) cloths_[kept.cloth].record_keep(commands, kept);
         // What the host or an earlier submission wrote.
         barrier(commands, vk::PipelineStageFlagBits::eAllCommands, vk::AccessFlagBits::eMemoryWrite,
                 vk::PipelineStageFlagBits::eComputeShader,

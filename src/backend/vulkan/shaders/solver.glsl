@@ -24,7 +24,7 @@ layout(set = 0, binding = 18, std140) uniform Solver
     vec4 curves[3];          // LimitCurve by class: below, limit, beyond, compressed
     vec4 curve_damping;      // N/m by class
     vec4 relaxations[2];
-    vec4 tolerances;         // of the linear solve, of Newton's method, and its loose one
+    vec4 tolerances;         // of the linear solve, of Newton's method, and its iterations
     vec4 softest;            // N/m, of limits that remember: by class with their compliance; w: without it
     vec4 compliance;         // m/N, by class; w: N/m, the stiffest limit, without its compliance
     vec4 acad_above_below;   // by length squared over rest length squared; z, w: of those held
@@ -156,7 +156,7 @@ real hand_pull() { return parameters.grab_target.w; }
 real hand_hold() { return parameters.rest_lengths_more.z; }
 real linear_tolerance() { return solver.tolerances.x; }
 real newton_tolerance() { return solver.tolerances.y; }
-real loose_tolerance() { return solver.tolerances.z; }
+real enough_iterations() { return solver.tolerances.z; }
 bool remembers(int k) { return solver.remembers[k]; }
 bool remembers_any() { return solver.remembers.w; }
 real softest(int k) { return solver.softest[k]; }
