@@ -52,6 +52,8 @@ public:
 
     /// Overwrites numbers of the arena.
     void put(std::size_t first, std::span<const float> values);
+    /// Of a mesh, what packs go by; see SolverContext.
+    void set_lanes(const MeshLanes* lanes) { context_.lanes = lanes; }
     /// Takes over the mass that the model has of a node now.
     void take_mass(const ClothModel& model, std::size_t node);
 
