@@ -37,11 +37,10 @@ KERNEL LimitCurve mesh_limit(int e, int spring_class)
     return remembered(curve, edge_load(edge_slip, e), edge_load(edge_stiff, e), softest(spring_class));
 }
 
-KERNEL SpringShare mesh_spring(int e, int spring_class, vec3 start, vec3 moved)
+// Of ACAD's solve, which has bending in its explicit step, limits alone.
+KERNEL SpringShare with_bending(int e, SpringShare spring, vec3 d)
 {
-    SpringShare spring =
-        spring_share(mesh_limit(e, spring_class), start, moved, edge_load(edge_rest, e), mesh_scale(e));
-    if (is_graded() && !is_acad()) spring = bent(spring, start + moved, edge_load(edge_bending, e));
+    if (is_graded() && !is_acad()) spring = bent(spring, d, edge_load(edge_bending, e));
     return spring;
 }
 KERNEL real mesh_taut(SpringShare spring)
@@ -54,7 +53,9 @@ KERNEL void mesh_springs(int e)
     int ends = level.edge_ends + 3 * e;
     int i = topology(ends), j = topology(ends + 1);
     vec3 start = load3(plane_q, j) - load3(plane_q, i), moved = load3(plane_t, j) - load3(plane_t, i);
-    SpringShare spring = mesh_spring(e, mesh_class(e), start, moved);
+    SpringShare spring =
+        spring_share(mesh_limit(e, mesh_class(e)), start, moved, edge_load(edge_rest, e), mesh_scale(e));
+    spring = with_bending(e, spring, start + moved);
     edge_store3(edge_force, e, spring.force);
     edge_store6(edge_block, e, spring.block);
     edge_store(edge_taut, e, mesh_taut(spring));
@@ -124,7 +125,8 @@ KERNEL void mesh_gather(int o)
     MeshNode node = mesh_node_alone(o);
     for (int k = topology(level.held_start + index); k < topology(level.held_start + index + 1); k += 2) {
         int e = topology(k + 1);
-        node = with_spring(node, edge_load3(edge_force, e), edge_load6(edge_block, e), real(topology(k) > o ? 1.0f : -1.0f));
+        real side = real(topology(k) > o ? 1.0f : -1.0f);
+        node = with_spring(node, edge_load3(edge_force, e), edge_load6(edge_block, e), side);
         node.taut = node.taut + edge_load(edge_taut, e);
     }
     edge_store6(edge_block, level.edges + index, where_else_zero(node.mass > 0.0f, node.row_sum));

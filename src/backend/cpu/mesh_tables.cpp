@@ -146,13 +146,16 @@ void MeshTables::add_springs(MeshLanes& of, const SolverLevel& level)
     const auto size = static_cast<std::size_t>(whole_slices(level.edges));
     std::vector<std::int32_t> ends[2] = {std::vector<std::int32_t>(size), std::vector<std::int32_t>(size)};
     std::vector<float> classes(size);
+    bool has_class[3]{};
     for (std::size_t e = 0; e < static_cast<std::size_t>(level.edges); ++e) {
         const std::int32_t* edge =
             hierarchy_->topology.data() + static_cast<std::size_t>(level.edge_ends) + 3 * e;
         for (std::size_t k = 0; k < 2; ++k) ends[k][e] = MeshLanes::state_size * (edge[k] - first);
         classes[e] = static_cast<float>(edge[2]);
-        of.has_class[edge[2]] = true;
+        has_class[edge[2]] = true;
     }
+    for (int k = 0; k < 3; ++k)
+        if (has_class[k]) of.classes[of.class_count++] = k;
     of.first_end = keep(std::move(ends[0]));
     of.second_end = keep(std::move(ends[1]));
     of.spring_class = keep(std::move(classes));
@@ -181,8 +184,8 @@ void MeshTables::add_transfers(MeshLanes& of, const SolverLevel& level, const So
     of.parents = weighted(finer.columns, level.parents_start, {}, Hierarchy::offset(level, 0, 0),
                           MeshLanes::vector_size, MeshLanes::vector_size * whole_slices(level.columns));
     // Behind the nodes there is a record of 0, and behind the blocks an empty one.
-    of.children = weighted(level.columns, level.children_start, {}, Hierarchy::offset(finer, 0, 0), 1,
-                           finer.columns);
+    of.children =
+        weighted(level.columns, level.children_start, {}, Hierarchy::offset(finer, 0, 0), 1, finer.columns);
     of.diagonal = weighted(level.columns, level.diagonal_start, {}, 0, 1, empty_block(finer));
 
     // Edges of as many sources side by side, within groups that passes are divided into.
@@ -194,9 +197,8 @@ void MeshTables::add_transfers(MeshLanes& of, const SolverLevel& level, const So
     };
     for (auto group = order.begin(); group != order.end();) {
         const auto end = group + std::min<std::ptrdiff_t>(sum_columns, order.end() - group);
-        std::stable_sort(group, end, [&](std::int32_t a, std::int32_t b) {
-            return source_count(a) > source_count(b);
-        });
+        std::stable_sort(group, end,
+                         [&](std::int32_t a, std::int32_t b) { return source_count(a) > source_count(b); });
         group = end;
     }
     of.sources = weighted(level.edges, level.coupling_start, order, 0, 1, empty_block(finer));

@@ -15,7 +15,8 @@ namespace pliant::cpu {
 
 class MeshTables {
 public:
-    /// Empty for what is no mesh, and for the solver paper. Leaves in `solver` the blocks that couple nothing.
+    /// Empty for what is no mesh, and for the solver paper. Leaves in `solver` the blocks that couple
+    /// nothing.
     MeshTables(const Hierarchy& hierarchy, SolverState<float>& solver);
 
     bool empty() const { return levels_.empty(); }

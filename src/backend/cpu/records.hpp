@@ -138,11 +138,19 @@ struct Records<Pack<W>> {
             packs_from_quads<W>([&](int lane) { return quad(records + 4 * (twice[lane] >> 1)); });
         return {packs.x, packs.y, packs.z, packs.w};
     }
+    /// Calls put_lane(lane, quad) for the first `count` lanes.
+    template <class Put>
+    static PLIANT_INLINE void store_some(const QuadPacks<W>& a, int count, const Put& put_lane)
+    {
+        if (count >= W) return quads_from_packs<W>(a, put_lane);
+        quads_from_packs<W>(a, [&](int lane, const Quad& values) {
+            if (lane < count) put_lane(lane, values);
+        });
+    }
     static PLIANT_INLINE void store_fours(float* records, const FourNumbers<T>& a, int count)
     {
-        quads_from_packs<W>({a.x, a.y, a.z, a.w}, [&](int lane, const Quad& values) {
-            if (lane < count) put(records + 4 * lane, values);
-        });
+        store_some({a.x, a.y, a.z, a.w}, count,
+                   [&](int lane, const Quad& values) { put(records + 4 * lane, values); });
     }
     template <int shift>
     static PLIANT_INLINE SixNumbers<T> sixes(const float* records, const std::int32_t* place)
@@ -157,12 +165,10 @@ struct Records<Pack<W>> {
                                           const Place& place)
     {
         const T* n = a.numbers;
-        quads_from_packs<W>({n[0], n[1], n[2], n[3]}, [&](int lane, const Quad& values) {
-            if (lane < count) put(records + 6 * place(lane), values);
-        });
-        quads_from_packs<W>({n[2], n[3], n[4], n[5]}, [&](int lane, const Quad& values) {
-            if (lane < count) put(records + 6 * place(lane) + 2, values);
-        });
+        store_some({n[0], n[1], n[2], n[3]}, count,
+                   [&](int lane, const Quad& values) { put(records + 6 * place(lane), values); });
+        store_some({n[2], n[3], n[4], n[5]}, count,
+                   [&](int lane, const Quad& values) { put(records + 6 * place(lane) + 2, values); });
     }
     /// 1 where an integer is even, and -1 where it is odd.
     static PLIANT_INLINE T signs(const std::int32_t* integers)
