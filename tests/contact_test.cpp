@@ -100,6 +100,63 @@ TEST_P(Contact, TakesAlongASheetOnATurntable)
     EXPECT_NEAR(turned, 90, 0.4 + 1.5);
 }
 
+// A node that falls within a Newton step, and stops at the table: else hundreds of them come and go for ever.
+TEST_P(Contact, LeavesASheetThatHasFallenAtRest)
+{
+    const bool slow = GetParam() == Backend::vulkan;
+    Scene scene = sheet_above(Plane{.friction = 0.5}, slow ? 6 : 24, 0.5);
+    scene.cloth_handle(0)->position = {0, 0.1, 0};
+    scene.cloth_handle(0)->damping = 1;
+    Simulation simulation(scene, test::on(GetParam()));
+    for (int k = 0; k < 60; ++k) simulation.advance(frame);
+    const Report& report = simulation.report();
+    EXPECT_LT(report.measures.max_speed, 1e-3);  // m/s
+    EXPECT_LE(report.solver.residual_max, 1);
+    EXPECT_LE(report.solver.newton_last, 2u);
+    EXPECT_EQ(report.solver.frames_cut, 0u);
+    test::Largest off;
+    for (const Vec3& x : simulation.positions()) off.add(std::abs(double{x.y} - scene.cloth(0).thickness));
+    EXPECT_LE(off.value(), 1e-5);  // m
+}
+
+// A strip over half a cylinder holds against T_1 / T_2 up to e^(mu pi) = 4.8 at mu = 0.5 (Euler and
+// Eytelwein). Hanging down by 0.3 m on one side, it holds 1.2 m on the other, and does not hold 1.65 m.
+TEST_P(Contact, OfAStripAroundACylinderHoldsAsACapstanDoes)
+{
+    if (GetParam() != Backend::cpu) GTEST_SKIP() << "a second of 120 nodes: on cpu alone";
+    const auto slipped = [&](double ratio) {
+        constexpr double radius = 0.2, shorter = 0.3, mu = 0.5;
+        const double arc = std::numbers::pi * radius, length = shorter * (1 + ratio) + arc;
+        const auto columns = static_cast<std::uint32_t>(length / 0.02);
+        Scene scene;
+        scene.method = Method::constraint;
+        Cloth strip =
+            Cloth::sheet({.rows = 3, .columns = columns, .width = length, .height = 0.04, .density = 0.3});
+        strip.damping = 2;
+        scene.add(strip);
+        const double out = radius + strip.thickness;
+        scene.add(Capsule{.start = {0, 0, -1}, .end = {0, 0, 1}, .radius = radius, .friction = mu});
+        Simulation simulation(scene, test::on(GetParam()));
+        State start = simulation.state();
+        for (std::size_t i = 0; i < start.cloths[0].positions.size(); ++i) {
+            Vec3& x = start.cloths[0].positions[i];
+            const double s = double{x.x} + length / 2 - shorter, z = double{x.z};  // 0 where the arc begins
+            const double angle = std::clamp(s / arc, 0.0, 1.0) * std::numbers::pi;
+            const double down = s < 0 ? s : s > arc ? arc - s : 0;
+            x = to_float({-out * std::cos(angle), out * std::sin(angle) + down, z});
+        }
+        simulation.set_state(start);
+        const auto end = [&] { return double{simulation.positions()[columns - 1].y}; };
+        for (int k = 0; k < 60; ++k) simulation.advance(frame);  // comes to hang
+        const double before = end();
+        for (int k = 0; k < 30; ++k) simulation.advance(frame);
+        return before - end();
+    };
+    // Creep of regularised friction is 1 mm/s at most.
+    EXPECT_LT(std::abs(slipped(4)), 0.002);
+    EXPECT_GT(slipped(5.5), 0.1);
+}
+
 TEST_P(Contact, ForgetsItsForcesWhereAStateIsPut)
 {
     Scene scene = sheet_above(Plane{}, 6, 0.2);

@@ -25,7 +25,9 @@ struct SolverCase {
     Preconditioner preconditioner = Preconditioner::multigrid;
     std::uint32_t smoothing = 1;
     bool stiff_bend = false;
-    bool graded = false;  ///< springs have numbers of their own
+    bool graded = false;       ///< springs have numbers of their own
+    std::uint32_t rings = 0;   ///< a disc
+    std::uint32_t spokes = 0;  ///< a wheel
 };
 void PrintTo(const SolverCase& c, std::ostream* out) { *out << c.name; }
 
@@ -46,6 +48,13 @@ const SolverCase cases[] = {
     {.name = "sheet_plain", .rows = 9, .columns = 7, .preconditioner = Preconditioner::none},
     {.name = "mesh_2x2", .rows = 2, .columns = 2, .mesh = true},
     {.name = "mesh_17x13", .rows = 17, .columns = 13, .mesh = true},
+    // Packs: of full ones with another at the end, of lanes with as many neighbours and with far from as
+    // many.
+    {.name = "mesh_5x13", .rows = 5, .columns = 13, .mesh = true, .smoothing = 2},
+    {.name = "mesh_8x8", .rows = 8, .columns = 8, .mesh = true},
+    {.name = "disc_of_127", .smoothing = 3, .rings = 6},
+    {.name = "wheel_of_46", .spokes = 45},
+    {.name = "acad_wheel", .method = Method::acad, .spokes = 70},
     {.name = "graded_sheet", .rows = 9, .columns = 13, .smoothing = 2, .graded = true},
     {.name = "graded_mesh", .rows = 9, .columns = 13, .mesh = true, .graded = true},
     {.name = "acad_graded", .rows = 9, .columns = 11, .method = Method::acad, .graded = true},
@@ -58,6 +67,28 @@ const SolverCase cases[] = {
 
 constexpr double dt = 1e-3;  // s
 constexpr int steps = 2;
+
+/// A node with as many neighbours as there are others, which have three each; bending aside.
+SurfaceMesh wheel(std::uint32_t spokes)
+{
+    SurfaceMesh mesh;
+    for (std::uint32_t k = 0; k < spokes; ++k) {
+        const float angle = 6.2831853f * static_cast<float>(k) / static_cast<float>(spokes);
+        mesh.vertices.push_back(
+            {0.5f * std::cos(angle), 0.01f * std::cos(3 * angle), 0.5f * std::sin(angle)});
+        mesh.triangles.push_back({k, (k + 1) % spokes, spokes});
+    }
+    mesh.vertices.push_back({});
+    return mesh;
+}
+
+Cloth cloth_of(const SolverCase& c)
+{
+    if (c.rings > 0) return Cloth::disc({.radius = 0.5, .rings = c.rings, .density = 0.3});
+    if (c.spokes > 0) return Cloth::mesh(wheel(c.spokes), {.density = 0.3});
+    if (c.mesh) return Cloth::mesh(test::irregular_mesh(c.rows, c.columns), {.density = 0.3});
+    return test::flat_sheet(c.rows, c.columns, 1.0, 0.8);
+}
 
 Scene scene_of(const SolverCase& c)
 {
@@ -76,8 +107,7 @@ Scene scene_of(const SolverCase& c)
     if (c.solver == Solver::paper) scene.acad.target = AcadTarget::rest;
     scene.paper.tolerance = 1e-6;
     scene.paper.max_iterations = 500;
-    Cloth cloth = c.mesh ? Cloth::mesh(test::irregular_mesh(c.rows, c.columns), {.density = 0.3})
-                         : test::flat_sheet(c.rows, c.columns, 1.0, 0.8);
+    Cloth cloth = cloth_of(c);
     cloth.springs = {{1000, 0.01}, {500, 0.01}, {1, 0}};
     cloth.springs.structural.compliance = cloth.springs.shear.compliance = cloth.springs.bend.compliance =
         1e-4;

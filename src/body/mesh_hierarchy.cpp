@@ -324,7 +324,8 @@ SolverLevel& Hierarchy::append_mesh_level(std::int32_t nodes, std::int32_t edges
     number_count += static_cast<std::size_t>(node_planes_count) * static_cast<std::size_t>(level.size);
     level.edges = edges;
     level.edge_base = static_cast<std::int32_t>(number_count);
-    level.edge_size = whole(edges + level.columns);
+    // One block more, which couples nothing: for kernels of packs, whose lanes may have none of their own.
+    level.edge_size = whole(edges + level.columns + 1);
     number_count += static_cast<std::size_t>(edge_planes_count) * static_cast<std::size_t>(level.edge_size);
     levels.push_back(level);
     return levels.back();

@@ -26,12 +26,26 @@ KERNEL SpringShare bent(SpringShare spring, vec3 d, real weight)
     return spring;
 }
 
-KERNEL LimitCurve mesh_limit(int e)
+KERNEL int mesh_class(int e)
 {
-    int spring_class = topology(level.edge_ends + 3 * e + 2);
+    return topology(level.edge_ends + 3 * e + 2);
+}
+KERNEL LimitCurve mesh_limit(int e, int spring_class)
+{
     LimitCurve curve = class_curve(spring_class);
     if (!remembers(spring_class)) return curve;
     return remembered(curve, edge_load(edge_slip, e), edge_load(edge_stiff, e), softest(spring_class));
+}
+
+// Of ACAD's solve, which has bending in its explicit step, limits alone.
+KERNEL SpringShare with_bending(int e, SpringShare spring, vec3 d)
+{
+    if (is_graded() && !is_acad()) spring = bent(spring, d, edge_load(edge_bending, e));
+    return spring;
+}
+KERNEL real mesh_taut(SpringShare spring)
+{
+    return choose(magnitude(spring.multiplier) > 0.0f, real(1.0f), real(0.0f));
 }
 
 KERNEL void mesh_springs(int e)
@@ -40,61 +54,89 @@ KERNEL void mesh_springs(int e)
     int i = topology(ends), j = topology(ends + 1);
     vec3 start = load3(plane_q, j) - load3(plane_q, i), moved = load3(plane_t, j) - load3(plane_t, i);
     SpringShare spring =
-        spring_share(mesh_limit(e), start, moved, edge_load(edge_rest, e), mesh_scale(e));
-    if (is_graded() && !is_acad()) spring = bent(spring, start + moved, edge_load(edge_bending, e));
+        spring_share(mesh_limit(e, mesh_class(e)), start, moved, edge_load(edge_rest, e), mesh_scale(e));
+    spring = with_bending(e, spring, start + moved);
     edge_store3(edge_force, e, spring.force);
     edge_store6(edge_block, e, spring.block);
-    edge_store(edge_taut, e, choose(magnitude(spring.multiplier) > 0.0f, real(1.0f), real(0.0f)));
+    edge_store(edge_taut, e, mesh_taut(spring));
     sums[0] = sums[0] + spring.energy;
 }
 
-// As sheet_multiply.
+// As sheet_multiply. d: x_j - x_i
+KERNEL RenewedLimit mesh_renewed(int e, int spring_class, vec3 d)
+{
+    return renewed(mesh_limit(e, spring_class), dot3(d, d), edge_load(edge_rest, e), spring_class);
+}
 KERNEL void mesh_multiply(int e)
 {
-    int ends = level.edge_ends + 3 * e, spring_class = topology(ends + 2);
+    int ends = level.edge_ends + 3 * e, spring_class = mesh_class(e);
     if (!remembers(spring_class)) return;
     int i = topology(ends), j = topology(ends + 1);
     vec3 d = load3(plane_q, j) - load3(plane_q, i) + (load3(plane_t, j) - load3(plane_t, i));
-    RenewedLimit limit = renewed(mesh_limit(e), dot3(d, d), edge_load(edge_rest, e), spring_class);
+    RenewedLimit limit = mesh_renewed(e, spring_class, d);
     edge_store(edge_slip, e, limit.memory.slip);
     edge_store(edge_stiff, e, limit.memory.stiffness);
     sums[0] = sums[0] + limit.energy * mesh_scale(e);
 }
 
-// Forces and the operator of a node from its springs. A spring to a pinned node is a support of this one. A taut spring
-// is counted at the lower of its nodes that move.
+// Forces and the operator of a node, from itself and from its springs.
+struct MeshNode
+{
+    vec3 r;
+    Symmetric row_sum;   // and later the diagonal
+    real taut;
+    real mass, energy, contact_energy;
+};
+KERNEL MeshNode mesh_node_alone(int o)
+{
+    vec3 q = load3(plane_q, o), t = load3(plane_t, o);
+    MeshNode node;
+    node.mass = load(plane_mass, o);
+    vec3 ahead = t - load3(plane_y, o);
+    Contact contact = contact_at(o, q, t);
+    node.r = ahead * (real(0.0f) - node.mass) + contact.force;
+    node.row_sum = plus(symmetric_diagonal(node.mass), contact.stiffness);
+    node.taut = real(0.0f);
+    node.energy = 0.5f * node.mass * dot3(ahead, ahead);
+    node.contact_energy = choose(node.mass > 0.0f, contact.energy, real(0.0f));
+    return node;
+}
+// side: 1 at the spring's first node, -1 at its second
+KERNEL MeshNode with_spring(MeshNode node, vec3 force, Symmetric block, real side)
+{
+    node.r = plus_scaled(node.r, force, side);
+    node.row_sum = plus(node.row_sum, block);
+    return node;
+}
+KERNEL void leave_mesh_node(int o, MeshNode node)
+{
+    mask is_free = node.mass > 0.0f;
+    store(plane_active, o, node.taut);
+    store6(plane_factor, o, where_else_zero(is_free, factored(node.row_sum, node.mass)));
+    store3(plane_r, o, choose(is_free, node.r, vec3(real(0.0f), real(0.0f), real(0.0f))));
+    sums[0] = sums[0] + node.energy;
+    sums[1] = sums[1] + node.contact_energy;
+}
+
+// A spring to a pinned node is a support of this one. A taut spring is counted at the lower of its nodes that move.
 KERNEL void mesh_gather(int o)
 {
-    int node = mesh_node(o);
-    vec3 q = load3(plane_q, o), t = load3(plane_t, o);
-    real mass = load(plane_mass, o);
-    mask is_free = mass > 0.0f;
-    vec3 ahead = t - load3(plane_y, o);
-    vec3 r = ahead * (real(0.0f) - mass);
-    Contact contact = contact_at(o, q, t);
-    r = r + contact.force;
-    Symmetric row_sum = plus(symmetric_diagonal(mass), contact.stiffness);
-    real taut = real(0.0f);
-    for (int k = topology(level.held_start + node); k < topology(level.held_start + node + 1); k += 2) {
+    int index = mesh_node(o);
+    MeshNode node = mesh_node_alone(o);
+    for (int k = topology(level.held_start + index); k < topology(level.held_start + index + 1); k += 2) {
         int e = topology(k + 1);
-        r = plus_scaled(r, edge_load3(edge_force, e), real(topology(k) > o ? 1.0f : -1.0f));
-        row_sum = plus(row_sum, edge_load6(edge_block, e));
-        taut = taut + edge_load(edge_taut, e);
+        real side = real(topology(k) > o ? 1.0f : -1.0f);
+        node = with_spring(node, edge_load3(edge_force, e), edge_load6(edge_block, e), side);
+        node.taut = node.taut + edge_load(edge_taut, e);
     }
-    Symmetric diagonal = row_sum;
-    for (int k = topology(level.row_start + node); k < topology(level.row_start + node + 1); k += 2) {
+    edge_store6(edge_block, level.edges + index, where_else_zero(node.mass > 0.0f, node.row_sum));
+    for (int k = topology(level.row_start + index); k < topology(level.row_start + index + 1); k += 2) {
         int e = topology(k + 1);
         bool ahead_of = topology(k) > o;
-        r = plus_scaled(r, edge_load3(edge_force, e), real(ahead_of ? 1.0f : -1.0f));
-        diagonal = plus(diagonal, edge_load6(edge_block, e));
-        if (ahead_of) taut = taut + edge_load(edge_taut, e);
+        node = with_spring(node, edge_load3(edge_force, e), edge_load6(edge_block, e), real(ahead_of ? 1.0f : -1.0f));
+        if (ahead_of) node.taut = node.taut + edge_load(edge_taut, e);
     }
-    store(plane_active, o, taut);
-    edge_store6(edge_block, level.edges + node, where_else_zero(is_free, row_sum));
-    store6(plane_factor, o, where_else_zero(is_free, factored(diagonal, mass)));
-    store3(plane_r, o, choose(is_free, r, vec3(real(0.0f), real(0.0f), real(0.0f))));
-    sums[0] = sums[0] + 0.5f * mass * dot3(ahead, ahead);
-    sums[1] = sums[1] + choose(is_free, contact.energy, real(0.0f));
+    leave_mesh_node(o, node);
 }
 
 // (A x) of a node; vectors are 0 at pinned nodes, which have no couplings.
@@ -152,6 +194,11 @@ KERNEL void mesh_coarsen_nodes(int o)
 }
 
 // The residual of the finer level, gathered, and the first correction of this one.
+KERNEL void leave_restricted(int o, vec3 r)
+{
+    store3(plane_r, o, r);
+    store3(plane_z, o, solved(load6(plane_factor, o), r) * relaxation());
+}
 KERNEL void mesh_restrict(int o)
 {
     int node = mesh_node(o);
@@ -159,8 +206,7 @@ KERNEL void mesh_restrict(int o)
     int end = topology(level.children_start + node + 1);
     for (int k = topology(level.children_start + node); k < end; k += 2)
         r = plus_scaled(r, finer_load3(plane_s, topology(k)), topology_weight(k + 1));
-    store3(plane_r, o, r);
-    store3(plane_z, o, solved(load6(plane_factor, o), r) * relaxation());
+    leave_restricted(o, r);
 }
 
 // The correction of this level, added to node f of the finer one.
@@ -285,7 +331,7 @@ KERNEL void mesh_multipliers(int o)
             int e = topology(k + 1), j = topology(k);
             vec3 d = load3(plane_q, j) + load3(plane_t, j) - x;
             real length2 = dot3(d, d), rest = edge_load(edge_rest, e);
-            SpringState state = spring_state(mesh_limit(e), length2, inverse_sqrt(length2), rest);
+            SpringState state = spring_state(mesh_limit(e, mesh_class(e)), length2, inverse_sqrt(length2), rest);
             most = largest(magnitude(state.multiplier * mesh_scale(e)), most);
         }
     }

@@ -44,14 +44,11 @@ struct SpringShare
     real energy, multiplier;
 };
 
-// start: x_j - x_i when the step began; moved: t_j - t_i; scale: 1, or 0 where there is no such spring
-KERNEL SpringShare spring_share(LimitCurve curve, vec3 start, vec3 moved, real rest_length, real scale)
+// state: of the spring as it is now; start: x_j - x_i when the step began; d: now; scale: 1, or 0 where there is no such
+// spring
+KERNEL SpringShare share_of(SpringState state, real damping_of_class, vec3 start, vec3 d, real inverse_length, real scale)
 {
-    vec3 d = start + moved;
-    real length2 = dot3(d, d);
-    real inverse_length = inverse_sqrt(length2);
     vec3 n = d * inverse_length;
-    SpringState state = spring_state(curve, length2, inverse_length, rest_length);
     SpringShare share;
     share.force = n * (state.force * scale);
     share.block = symmetric_about(n, state.along * scale, state.across * scale);
@@ -59,12 +56,21 @@ KERNEL SpringShare spring_share(LimitCurve curve, vec3 start, vec3 moved, real r
     share.multiplier = state.multiplier * scale;
     if (has_damping()) {
         vec3 n0 = start * inverse_sqrt(dot3(start, start));
-        real along = dot3(d - start, n0), damping = curve.damping * scale;
+        real along = dot3(d - start, n0), damping = damping_of_class * scale;
         share.force = share.force + n0 * (damping * along);
         share.block = plus(share.block, symmetric_about(n0, damping, real(0.0f)));
         share.energy = share.energy + 0.5f * damping * along * along;
     }
     return share;
+}
+
+// moved: t_j - t_i
+KERNEL SpringShare spring_share(LimitCurve curve, vec3 start, vec3 moved, real rest_length, real scale)
+{
+    vec3 d = start + moved;
+    real length2 = dot3(d, d);
+    real inverse_length = inverse_sqrt(length2);
+    return share_of(spring_state(curve, length2, inverse_length, rest_length), curve.damping, start, d, inverse_length, scale);
 }
 
 // Contact of a node with the solid parts of the scene: an augmented Lagrangian, as the springs' limits are one. A node that

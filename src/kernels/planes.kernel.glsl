@@ -45,8 +45,8 @@ const int bent_sheet_planes = 125;
 // Of a mesh's spring; a coupling of a coarser level has the block alone. Row sums of nodes come after the blocks.
 const int edge_block = 0;      // N/m
 const int edge_force = 6;      // N, on the first node
-const int edge_rest = 9;       // m
-const int edge_taut = 10;      // 1 for an active constraint
+const int edge_taut = 9;       // 1 for an active constraint
+const int edge_rest = 10;      // m
 const int edge_mark = 11;      // of ACAD: 1 where the spring is a limit in this step
 const int edge_scale = 12;     // of graded springs: multiplies stiffness, and the weight of bending, N/m
 const int edge_bending = 13;

@@ -126,7 +126,7 @@ constexpr bool is_solver_pass(Pass pass) { return pass >= Pass::solve_reset; }
 /// Those of the solver paper, which are over nodes and springs and not over packs of them.
 constexpr bool is_paper_pass(Pass pass) { return pass >= Pass::paper_begin && pass <= Pass::paper_end; }
 
-/// Those that go by the neighbours on a mesh: on the CPU they work on one node or edge at a time, too.
+/// Those that go by the neighbours on a mesh.
 constexpr bool is_mesh_pass(Pass pass) { return pass >= Pass::mesh_springs && pass <= Pass::mesh_prolong; }
 
 /// Those that ACAD's solve makes over rows (groups of a mesh) that have a marked spring, and no others.

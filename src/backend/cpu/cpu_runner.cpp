@@ -9,6 +9,7 @@
 #include "backend/cpu/jobs.hpp"
 #include "backend/cpu/kernels.hpp"
 #include "backend/cpu/measured_springs.hpp"
+#include "backend/cpu/mesh_tables.hpp"
 #include "backend/cpu/pointers.hpp"
 #include "backend/cpu/sheet_steps.hpp"
 #include "backend/cpu/spring_list.hpp"
@@ -32,6 +33,7 @@ struct CpuCloth {
           springs(plain),
           measured(plain),
           solver(model, model.hierarchy),
+          mesh(model.hierarchy, solver),
           body(plain),
           sheet(plain.layout, model.is_sheet() ? most_parts : 0)
     {
@@ -42,6 +44,7 @@ struct CpuCloth {
     cpu::MeasuredSprings measured;
     SolverState<float> solver;
     KeptState<float> kept;
+    cpu::MeshTables mesh;
     cpu::CpuBody body;
     cpu::SheetSteps sheet;
 };
@@ -67,7 +70,8 @@ struct Work {
         const PassSize pass_size = description_of(call->pass).size;
         if (is_solver_pass(call->pass)) {
             const bool scalar = pass_size == PassSize::single || pass_size == PassSize::live ||
-                                is_paper_pass(call->pass) || is_mesh_pass(call->pass);
+                                is_paper_pass(call->pass) ||
+                                (is_mesh_pass(call->pass) && !has_lanes(call->pass));
             unit = scalar ? Unit::single : Unit::solver;
             size = cloth->solver.size_of(c);
             weight = cloth->solver.weight_of(c);
@@ -98,6 +102,18 @@ struct Work {
             if (call->pass == Pass::sheet_measure || of_mesh) unit = Unit::measures;
             if (pass_size == PassSize::block || pass_size == PassSize::fan) weight = block_size;
         }
+    }
+
+    /// Groups of nodes that the call asks for records of.
+    std::size_t record_groups() const
+    {
+        return asks_for_records(call->pass) ? cloth->mesh.record_groups(*call) : 0;
+    }
+    void make_records(std::size_t index, std::size_t count) const
+    {
+        const std::size_t groups = record_groups();
+        kernels->solver_records(*solver, *call, static_cast<int>(groups * index / count),
+                                static_cast<int>(groups * (index + 1) / count));
     }
 
     void part(std::size_t index, std::size_t count) const
@@ -344,6 +360,10 @@ private:
 
     void run(const Work& work)
     {
+        if (const std::size_t groups = work.record_groups(); groups > 0) {
+            const std::size_t parts = part_count(groups, sum_columns);
+            run_parts(parts, [&](std::size_t index) { work.make_records(index, parts); });
+        }
         const std::size_t count = part_count(work.size / work.multiple, work.multiple * work.weight);
         run_parts(count, [&](std::size_t index) { work.part(index, count); });
     }

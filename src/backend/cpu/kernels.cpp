@@ -19,6 +19,7 @@ const Kernels* fast_kernels([[maybe_unused]] const Kernels& exact)
 #if defined(__x86_64__)
     const auto with_solver = [](Kernels kernels, const Kernels& of) {
         kernels.solve = of.solve;
+        kernels.solver_records = of.solver_records;
         return kernels;
     };
     static const Kernels avx2 = with_solver(kernels_avx2_fast, kernels_avx2);

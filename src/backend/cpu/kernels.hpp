@@ -174,6 +174,8 @@ struct Kernels {
     BodyKernel ring_step, volume_gather, volume_step, volume_cubic, volume_correct;
     /// Rows or groups of a pass of the constraint solver.
     void (*solve)(const SolverContext<float>&, const Call&, int first, int end);
+    /// The records that such a pass asks for on a mesh, of groups of nodes: asks_for_records.
+    void (*solver_records)(const SolverContext<float>&, const Call&, int first, int end);
 };
 
 /// Those this build has and this machine can run, narrowest first; never empty.

@@ -128,20 +128,24 @@ PLIANT_INLINE L::Motion stepped(const Arguments& a, const L::Motion& now, const 
 #include "backend/cpu/body_kernels.inl"
 
 #if PLIANT_FAST_MATH
-constexpr auto solve = nullptr;  // the solver's arithmetic is exact in any case
+constexpr auto solve = nullptr, solver_records = nullptr;  // the solver's arithmetic is exact in any case
 #else
 void solve(const SolverContext<float>& context, const Call& call, int first, int end)
 {
     SolverKernels<Number>(context, call).run(call.pass, first, end);
+}
+void solver_records(const SolverContext<float>& context, const Call& call, int first, int end)
+{
+    SolverKernels<Number>(context, call).make_records(call.pass, first, end);
 }
 #endif
 
 }  // namespace
 
 extern const Kernels PLIANT_KERNELS;
-const Kernels PLIANT_KERNELS = {PLIANT_KERNELS_NAME, sheet_steps,   sheet_wind,     sheet_normal,
-                                sheet_strain,        sheet_measure, mesh_measure,   record_states,
-                                spring_forces,       list_step,     ring_step,      volume_gather,
-                                volume_step,         volume_cubic,  volume_correct, solve};
+const Kernels PLIANT_KERNELS = {
+    PLIANT_KERNELS_NAME, sheet_steps,   sheet_wind,     sheet_normal, sheet_strain,  sheet_measure,
+    mesh_measure,        record_states, spring_forces,  list_step,    ring_step,     volume_gather,
+    volume_step,         volume_cubic,  volume_correct, solve,        solver_records};
 
 }  // namespace pliant::cpu

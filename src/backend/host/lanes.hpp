@@ -23,6 +23,19 @@ struct Lanes {
     static T sum(T a) { return a; }
 };
 
+/// Numbers that lie record by record: for a pack those of backend/cpu/records.hpp, which nothing else asks
+/// for.
+template <class T>
+struct Records;
+template <class T>
+struct FourNumbers {
+    T x, y, z, w;
+};
+template <class T>
+struct SixNumbers {
+    T numbers[6];
+};
+
 /// One vector, and one collider, for all lanes of T.
 template <class T, class Vector>
 auto spread_vector(const Vector& a)

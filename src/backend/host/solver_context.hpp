@@ -4,6 +4,7 @@
 
 #include <cstddef>
 
+#include "backend/host/mesh_lanes.hpp"
 #include "body/hierarchy.hpp"
 #include "laws/laws.hpp"
 #include "solve/pass.hpp"
@@ -72,6 +73,7 @@ struct SolverContext {
     const SolverConstants<Number>* constants = nullptr;
     const typename Laws<Number>::Collider* colliders = nullptr;
     int collider_count = 0;
+    const MeshLanes* lanes = nullptr;  ///< by level; of meshes where packs run them
 };
 
 }  // namespace pliant

@@ -45,6 +45,7 @@ struct SolverKernels {
           operator_(operator_of(level)),
           finer_operator_(operator_of(finer)),
           detail_(call.detail),
+          level_number_(call.level),
           is_cloth_(call.level == 0),
           finer_is_cloth_(call.level == 1)
     {
@@ -266,12 +267,16 @@ struct SolverKernels {
     mask inside_level() const { return inside_; }
 
     int topology(int k) const { return context.topology[k]; }
-    /// Of a mesh's edges: numbers of one edge lie together.
+    /// Of a mesh's edges: numbers of one edge lie together, and whether it is taut with its force.
     Number* edge_at(int plane, int numbers, int e) const
     {
-        return context.arena + (level.edge_base + plane * level.edge_size + numbers * e);
+        Number* first = context.arena + level.edge_base;
+        if (plane == edge_force) return first + (edge_force * level.edge_size + 4 * e);
+        if (plane == edge_taut) return first + (edge_force * level.edge_size + 4 * e + 3);
+        return first + (plane * level.edge_size + numbers * e);
     }
-    real edge_load(int plane, int e) const { return spread(*edge_at(plane, 1, e)); }
+    /// Of edges e and after it.
+    real edge_load(int plane, int e) const { return Lanes<T>::load(edge_at(plane, 1, e)); }
     void edge_store(int plane, int e, real a) const { *edge_at(plane, 1, e) = Lanes<T>::first(a); }
     vec3 edge_load3(int plane, int e) const
     {
@@ -370,8 +375,12 @@ struct SolverKernels {
     {
         if constexpr (Lanes<T>::count == 1)
             if (is_paper_pass(pass)) return run_paper(pass, begin, end);
-        if constexpr (Lanes<T>::count == 1)
-            if (is_mesh_pass(pass)) return run_mesh(pass, begin, end);
+        if (is_mesh_pass(pass)) {
+            if constexpr (Lanes<T>::count == 1)
+                return run_mesh(pass, begin, end);
+            else
+                return run_mesh_lanes(pass, begin, end);
+        }
         using K = SolverKernels;
         switch (pass) {
             case Pass::step_begin: return nodes<&K::step_begin>(pass, begin, end);
@@ -443,6 +452,8 @@ struct SolverKernels {
         }
     }
 
+#include "backend/host/mesh_rows.inl"
+
 private:
 #include "backend/host/solver_parts.inl"
 
@@ -454,7 +465,7 @@ private:
     Distance size_, finer_size_;
     Number *operator_, *finer_operator_;
     mask inside_{};
-    unsigned detail_;
+    unsigned detail_, level_number_;
     bool is_cloth_, finer_is_cloth_;
 };
 

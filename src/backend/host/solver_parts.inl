@@ -33,7 +33,8 @@ void finer_nodes(int begin, int end)
 {
     SolverKernels self = *this;
     const int last = end * sum_columns < finer.columns ? end * sum_columns : finer.columns;
-    for (int column = begin * sum_columns; column < last; ++column) (self.*kernel)(finer_offset(0, column));
+    for (int column = begin * sum_columns; column < last; column += Lanes<T>::count)
+        (self.*kernel)(finer_offset(0, column));
 }
 
 /// Of the solver paper: over groups of nodes or of rows, or over blocks of the prefix sum.

@@ -59,6 +59,8 @@ public:
                        [](Number a) { return static_cast<T>(a); });
     }
     void put_scalars(std::span<const T> values) { scalars_.assign(values.begin(), values.end()); }
+    /// Of a mesh, what packs go by; see SolverContext.
+    void set_lanes(const MeshLanes* lanes) { context_.lanes = lanes; }
     /// Takes over the mass that the model has of a node now.
     void take_mass(const ClothModel& model, std::size_t node);
 

@@ -1,0 +1,76 @@
+// What kernels of packs need of a mesh: its tables by slices of 16 lanes, so that neighbouring nodes are
+// worked on side by side, and copies of numbers that are found in one place. Made in backend/cpu.
+#pragma once
+
+#include <cstdint>
+
+#include "solve/pass.hpp"
+
+namespace pliant {
+
+/// Rows of 16 lanes: the k-th entry of each of 16 neighbouring nodes or edges. Slice s begins with row
+/// start[s]. A lane that has fewer entries than others is filled with ones that change nothing.
+struct LaneTable {
+    static constexpr int lanes = 16, counted = 4;
+    const std::int32_t* start = nullptr;
+    const std::int32_t* rows = nullptr;   ///< how many, for each 4 lanes
+    const std::int32_t* place = nullptr;  ///< by entry
+    const float* weight = nullptr;        ///< by entry
+};
+
+/// A level of a mesh.
+struct MeshLanes {
+    /// Floats of a vector in a record, and of the displacement of a node and where it started.
+    static constexpr int vector_size = 4, state_size = 8;
+    /// Of nodes. Places are of records, in floats; a filled entry is the node itself, without a coupling.
+    LaneTable neighbours;
+    const std::int32_t* neighbour_edges = nullptr;  ///< by entry: 2 e, and 1 more at the edge's second node
+    float* couplings = nullptr;                     ///< by row: 6 numbers of 16 lanes, N/m
+    LaneTable held;                                 ///< of the cloth: places are as neighbour_edges
+    float* vectors = nullptr;                       ///< records of a vector that neighbours are asked for
+    float* states = nullptr;                        ///< of the cloth: the same
+    // Of edges of the cloth: records of their ends, in floats, and the class of springs.
+    const std::int32_t *first_end = nullptr, *second_end = nullptr;
+    const float* spring_class = nullptr;
+    int classes[3]{}, class_count = 0;  ///< that there are
+    // How this level comes from the finer one, by weights. A filled entry has the weight -0 and the number 0.
+    LaneTable parents;   ///< of nodes of the finer one; places are of records, in floats
+    LaneTable children;  ///< of nodes; places are nodes of the finer one
+    LaneTable diagonal;  ///< of nodes; places are blocks of the finer one
+    LaneTable sources;   ///< of edges; the same, in an order of their own: source_edges
+    const std::int32_t* source_edges = nullptr;
+};
+
+/// Passes of meshes that packs run.
+constexpr bool has_lanes(Pass pass)
+{
+    switch (pass) {
+        case Pass::mesh_springs:
+        case Pass::mesh_gather:
+        case Pass::mesh_coarsen_couplings:
+        case Pass::mesh_coarsen_nodes:
+        case Pass::mesh_apply:
+        case Pass::mesh_smooth:
+        case Pass::mesh_residual:
+        case Pass::mesh_restrict:
+        case Pass::mesh_multiply:
+        case Pass::mesh_prolong: return true;
+        default: return false;
+    }
+}
+/// Those that find their neighbours in records, which must be made before.
+constexpr bool asks_for_records(Pass pass)
+{
+    switch (pass) {
+        case Pass::mesh_springs:
+        case Pass::mesh_apply:
+        case Pass::mesh_smooth:
+        case Pass::mesh_residual:
+        case Pass::mesh_restrict:
+        case Pass::mesh_multiply:
+        case Pass::mesh_prolong: return true;
+        default: return false;
+    }
+}
+
+}  // namespace pliant

@@ -1,0 +1,310 @@
+// Passes of meshes by packs: neighbouring nodes, or edges, side by side, by the tables of MeshLanes. Every
+// node adds up what it does in kernels/mesh.kernel.glsl, in the same order. Part of SolverKernels
+// (solver_kernels.hpp).
+
+using Record = Records<T>;
+
+const MeshLanes& lanes_of(unsigned number) const { return context.lanes[number]; }
+const MeshLanes& lanes() const { return lanes_of(level_number_); }
+
+/// The entries of lane `first` and those behind it, row after row.
+struct Entries {
+    struct Place {
+        int entry;
+        PLIANT_SMALL int operator*() const { return entry; }
+        PLIANT_SMALL void operator++() { entry += LaneTable::lanes; }
+        PLIANT_SMALL bool operator!=(Place other) const { return entry != other.entry; }
+    };
+    int first, last;
+    PLIANT_SMALL Place begin() const { return {first}; }
+    PLIANT_SMALL Place end() const { return {last}; }
+};
+KERNEL static Entries entries_of(const LaneTable& table, int first)
+{
+    constexpr int slice_lanes = LaneTable::lanes, counted = LaneTable::counted;
+    int rows = table.rows[first / counted];
+    for (int k = 1; k < Lanes<T>::count / counted; ++k)
+        rows = table.rows[first / counted + k] > rows ? table.rows[first / counted + k] : rows;
+    const int begin = table.start[first / slice_lanes] * slice_lanes + first % slice_lanes;
+    return {begin, begin + rows * slice_lanes};
+}
+/// How many of the lanes are left before `end`.
+static int lanes_left(int first, int end)
+{
+    return end - first < Lanes<T>::count ? end - first : Lanes<T>::count;
+}
+
+KERNEL static Symmetric symmetric_of(const SixNumbers<T>& a)
+{
+    const T* n = a.numbers;
+    return {n[0], n[1], n[2], n[3], n[4], n[5]};
+}
+/// Blocks of a level, each at half of a number where `shift` is 1.
+template <int shift>
+KERNEL Symmetric blocks_at(const SolverLevel& of, const std::int32_t* place) const
+{
+    return symmetric_of(Record::template sixes<shift>(context.arena + of.edge_base, place));
+}
+template <class Place>
+KERNEL void store_blocks(Symmetric a, int count, const Place& place) const
+{
+    Record::store_sixes(context.arena + level.edge_base, {{a.xx, a.xy, a.xz, a.yy, a.yz, a.zz}}, count,
+                        place);
+}
+/// The row sums of nodes: where coarser levels find them, and where the product does.
+KERNEL void store_row_sums(int o, Symmetric a)
+{
+    const int first = mesh_node(o);
+    store_blocks(a, lanes_left(first, level.columns), [&](int lane) { return level.edges + first + lane; });
+    store6(plane_row_sum, o, a);
+}
+/// The couplings of nodes with their neighbours lie row by row: a stream for the product.
+KERNEL Number* couplings_at(int entry) const
+{
+    const int lane = entry % LaneTable::lanes;
+    return lanes().couplings + (6 * (entry - lane) + lane);
+}
+
+// --- records ---------------------------------------------------------------------------------------------
+
+/// What neighbours are asked for in a pass, of groups of nodes: of this level, or of the finer one.
+void make_records(Pass pass, int begin, int end)
+{
+    SolverKernels self = *this;
+    if (pass == Pass::mesh_springs || pass == Pass::mesh_multiply) {
+        self.for_each_row(begin, end, [&](int, int first, int last) {
+            for (int column = first; column < last; column += Lanes<T>::count) {
+                const int o = self.level_offset(0, column);
+                Number* to = self.lanes().states + MeshLanes::state_size * column;
+                Record::template store<MeshLanes::state_size>(to, self.load3(plane_q, o));
+                Record::template store<MeshLanes::state_size>(to + MeshLanes::vector_size,
+                                                              self.load3(plane_t, o));
+            }
+        });
+        return;
+    }
+    const bool is_finer = pass == Pass::mesh_restrict;
+    const SolverLevel& of = is_finer ? finer : level;
+    const int plane = is_finer ? plane_s : pass == Pass::mesh_apply ? plane_p : source_plane();
+    const int first = is_finer ? finer_offset(0, 0) : level_offset(0, 0);
+    const Number* from = (is_finer ? finer_base_ : base_) + (plane * of.size + first);
+    Number* to = lanes_of(is_finer ? level_number_ - 1 : level_number_).vectors;
+    const int last = end * sum_columns < of.columns ? end * sum_columns : of.columns;
+    for (int column = begin * sum_columns; column < last; column += Lanes<T>::count)
+        Record::template store<MeshLanes::vector_size>(to + MeshLanes::vector_size * column,
+                                                       three<&Lanes<T>::load>(from + column, of.size));
+}
+
+// --- springs ---------------------------------------------------------------------------------------------
+
+/// A group of springs on their way to their forces: x_j - x_i when the step began and now, and lengths. Found
+/// by sweeps of short chains, of which a core holds many at a time.
+struct SpringGroup {
+    Number start[3 * sum_columns], d[3 * sum_columns], length2[sum_columns], inverse_length[sum_columns];
+};
+KERNEL void find_lengths(SpringGroup& group, int first, int last) const
+{
+    const Number* states = lanes().states;
+    for (int k = 0; first + k < last; k += Lanes<T>::count) {
+        const std::int32_t *i = lanes().first_end + first + k, *j = lanes().second_end + first + k;
+        const vec3 start = Record::differences(states, i, j);
+        const vec3 d = start + Record::differences(states + MeshLanes::vector_size, i, j);
+        put3(group.start + k, sum_columns, start.x, start.y, start.z);
+        put3(group.d + k, sum_columns, d.x, d.y, d.z);
+        Lanes<T>::store(group.length2 + k, dot3(d, d));
+    }
+    for (int k = 0; first + k < last; k += Lanes<T>::count)
+        Lanes<T>::store(group.inverse_length + k, inverse_sqrt(Lanes<T>::load(group.length2 + k)));
+}
+
+/// Classes are mixed: the state by each is computed for all lanes.
+KERNEL void springs_lanes(const SpringGroup& group, int first, int e)
+{
+    const int k = e - first, count = lanes_left(e, level.edges);
+    const vec3 start = three<&Lanes<T>::load>(group.start + k, sum_columns);
+    const vec3 d = three<&Lanes<T>::load>(group.d + k, sum_columns);
+    const real length2 = Lanes<T>::load(group.length2 + k),
+               inverse_length = Lanes<T>::load(group.inverse_length + k);
+    const real rest = edge_load(edge_rest, e), spring_class = Lanes<T>::load(lanes().spring_class + e);
+    LimitCurve curve = mesh_limit(e, lanes().classes[0]);
+    SpringState state = spring_state(curve, length2, inverse_length, rest);
+    for (int c = 1; c < lanes().class_count; ++c) {
+        const LimitCurve next = mesh_limit(e, lanes().classes[c]);
+        const mask is_next = spring_class > real(float(lanes().classes[c]) - 0.5f);
+        state = chosen(is_next, spring_state(next, length2, inverse_length, rest), state);
+        curve.damping = choose(is_next, next.damping, curve.damping);
+    }
+    SpringShare spring = share_of(state, curve.damping, start, d, inverse_length, mesh_scale(e));
+    spring = with_bending(e, spring, d);
+    Record::store_fours(edge_at(edge_force, 4, e),
+                        {spring.force.x, spring.force.y, spring.force.z, mesh_taut(spring)}, count);
+    store_blocks(spring.block, count, [&](int lane) { return e + lane; });
+    sums[0] = sums[0] + choose(Lanes<T>::first_lanes(count), spring.energy, real(0.0f));
+}
+KERNEL static SpringState chosen(mask m, SpringState a, SpringState b)
+{
+    return {choose(m, a.force, b.force), choose(m, a.along, b.along), choose(m, a.across, b.across),
+            choose(m, a.energy, b.energy), choose(m, a.multiplier, b.multiplier)};
+}
+void springs_of_groups(Pass pass, int begin, int end)
+{
+    const SumSlots slots = sum_slots_of(pass);
+    SolverKernels self = *this;
+    SpringGroup springs;
+    for (int group = begin; group < end; ++group) {
+        const int first = group * sum_columns;
+        const int last = first + sum_columns < level.edges ? first + sum_columns : level.edges;
+        self.find_lengths(springs, first, last);
+        self.summed(slots, group, first, last, [&](int e) { self.springs_lanes(springs, first, e); });
+    }
+}
+
+/// The force of springs, and whether they are taut.
+KERNEL FourNumbers<T> force_at(const std::int32_t* place) const
+{
+    return Record::fours(edge_at(edge_force, 4, 0), place);
+}
+KERNEL void gather_lanes(int o)
+{
+    const int first = mesh_node(o);
+    MeshNode node = mesh_node_alone(o);
+    const LaneTable &held = lanes().held, &neighbours = lanes().neighbours;
+    for (const int entry : entries_of(held, first)) {
+        const FourNumbers<T> force = force_at(held.place + entry);
+        node = with_spring(node, {force.x, force.y, force.z}, blocks_at<1>(level, held.place + entry),
+                           Record::signs(held.place + entry));
+        node.taut = node.taut + force.w;
+    }
+    store_row_sums(o, where_else_zero(node.mass > 0.0f, node.row_sum));
+    for (const int entry : entries_of(neighbours, first)) {
+        const std::int32_t* place = lanes().neighbour_edges + entry;
+        const FourNumbers<T> force = force_at(place);
+        const Symmetric block = blocks_at<1>(level, place);
+        const real side = Record::signs(place);
+        node = with_spring(node, {force.x, force.y, force.z}, block, side);
+        node.taut = node.taut + choose(side > 0.0f, force.w, real(0.0f));
+        store_coupling(entry, block);
+    }
+    leave_mesh_node(o, node);
+}
+KERNEL void store_coupling(int entry, Symmetric a) const
+{
+    Number* p = couplings_at(entry);
+    put3(p, LaneTable::lanes, a.xx, a.xy, a.xz);
+    put3(p + 3 * LaneTable::lanes, LaneTable::lanes, a.yy, a.yz, a.zz);
+}
+
+KERNEL void multiply_lanes(int e)
+{
+    const std::int32_t *i = lanes().first_end + e, *j = lanes().second_end + e;
+    const Number* states = lanes().states;
+    const vec3 d =
+        Record::differences(states, i, j) + Record::differences(states + MeshLanes::vector_size, i, j);
+    const real spring_class = Lanes<T>::load(lanes().spring_class + e);
+    const mask is_there = Lanes<T>::first_lanes(level.edges - e);
+    for (int k = 0; k < lanes().class_count; ++k) {
+        const int renewed_class = lanes().classes[k];
+        if (!remembers(renewed_class)) continue;
+        const RenewedLimit limit = mesh_renewed(e, renewed_class, d);
+        const mask renews = both(is_there, is_number(spring_class, renewed_class));
+        Number *slip = edge_at(edge_slip, 1, e), *stiff = edge_at(edge_stiff, 1, e);
+        Lanes<T>::store(slip, choose(renews, limit.memory.slip, Lanes<T>::load(slip)));
+        Lanes<T>::store(stiff, choose(renews, limit.memory.stiffness, Lanes<T>::load(stiff)));
+        sums[0] = sums[0] + choose(renews, limit.energy * mesh_scale(e), real(0.0f));
+    }
+}
+
+// --- products --------------------------------------------------------------------------------------------
+
+/// mesh_row_product; x lies in records, too.
+KERNEL vec3 lanes_product(int x, int o)
+{
+    const vec3 own = load3(x, o);
+    vec3 y = product(load6(plane_row_sum, o), own);
+    const LaneTable& neighbours = lanes().neighbours;
+    for (const int entry : entries_of(neighbours, mesh_node(o))) {
+        const vec3 other = Record::template vectors<1>(lanes().vectors, neighbours.place + entry);
+        y = y + product(six<&Lanes<T>::load>(couplings_at(entry), LaneTable::lanes), own - other);
+    }
+    return y;
+}
+KERNEL void apply_lanes(int o) { leave_applied(o, lanes_product(plane_p, o)); }
+KERNEL void smooth_lanes(int o) { leave_smoothed(o, lanes_product(source_plane(), o)); }
+KERNEL void residual_lanes(int o) { leave_residual(o, lanes_product(source_plane(), o)); }
+
+// --- from level to level ---------------------------------------------------------------------------------
+
+KERNEL Symmetric galerkin_sum_lanes(const LaneTable& table, int first)
+{
+    Symmetric a = symmetric_diagonal(real(0.0f));
+    for (const int entry : entries_of(table, first)) {
+        a = plus_scaled(a, blocks_at<0>(finer, table.place + entry), Lanes<T>::load(table.weight + entry));
+    }
+    return a;
+}
+KERNEL void coarsen_couplings_lanes(int first)
+{
+    const std::int32_t* edge = lanes().source_edges + first;
+    store_blocks(galerkin_sum_lanes(lanes().sources, first), lanes_left(first, level.edges),
+                 [&](int lane) { return edge[lane]; });
+}
+KERNEL void coarsen_nodes_lanes(int o)
+{
+    const int first = mesh_node(o);
+    const LaneTable &children = lanes().children, &neighbours = lanes().neighbours;
+    const Number* row_sums = context.arena + (finer.edge_base + 6 * finer.edges);
+    Symmetric row_sum = symmetric_diagonal(real(0.0f));
+    for (const int entry : entries_of(children, first)) {
+        row_sum =
+            plus_scaled(row_sum, symmetric_of(Record::template sixes<0>(row_sums, children.place + entry)),
+                        Lanes<T>::load(children.weight + entry));
+    }
+    store_row_sums(o, row_sum);
+    for (const int entry : entries_of(neighbours, first)) {
+        store_coupling(entry, blocks_at<1>(level, lanes().neighbour_edges + entry));
+    }
+    store6(plane_factor, o, factored(galerkin_sum_lanes(lanes().diagonal, first), real(0.0f)));
+}
+
+KERNEL void restrict_lanes(int o)
+{
+    const LaneTable& children = lanes().children;
+    const Number* vectors = lanes_of(level_number_ - 1).vectors;
+    vec3 r = vec3(real(0.0f), real(0.0f), real(0.0f));
+    for (const int entry : entries_of(children, mesh_node(o))) {
+        r = plus_scaled(r, Record::template vectors<MeshLanes::vector_size>(vectors, children.place + entry),
+                        Lanes<T>::load(children.weight + entry));
+    }
+    leave_restricted(o, r);
+}
+KERNEL void prolong_lanes(int f)
+{
+    const LaneTable& parents = lanes().parents;
+    Number* p = finer_base_ + (finer_plane() * finer_size_ + f);
+    vec3 z = three<&Lanes<T>::load>(p, finer_size_);
+    for (const int entry : entries_of(parents, f - finer_offset(0, 0))) {
+        z = plus_scaled(z, Record::template vectors<1>(lanes().vectors, parents.place + entry),
+                        Lanes<T>::load(parents.weight + entry));
+    }
+    put3(p, finer_size_, z.x, z.y, z.z);
+}
+
+/// As run_mesh, of the passes that has_lanes names.
+void run_mesh_lanes(Pass pass, int begin, int end)
+{
+    using K = SolverKernels;
+    switch (pass) {
+        case Pass::mesh_springs: return springs_of_groups(pass, begin, end);
+        case Pass::mesh_gather: return nodes<&K::gather_lanes>(pass, begin, end);
+        case Pass::mesh_coarsen_couplings:
+            return rows<&K::coarsen_couplings_lanes>(pass, begin, end, level.edges);
+        case Pass::mesh_coarsen_nodes: return nodes<&K::coarsen_nodes_lanes>(pass, begin, end);
+        case Pass::mesh_apply: return nodes<&K::apply_lanes>(pass, begin, end);
+        case Pass::mesh_smooth: return nodes<&K::smooth_lanes>(pass, begin, end);
+        case Pass::mesh_residual: return nodes<&K::residual_lanes>(pass, begin, end);
+        case Pass::mesh_restrict: return nodes<&K::restrict_lanes>(pass, begin, end);
+        case Pass::mesh_multiply: return rows<&K::multiply_lanes>(pass, begin, end, level.edges);
+        case Pass::mesh_prolong: return finer_nodes<&K::prolong_lanes>(begin, end);
+        default: return;
+    }
+}
