@@ -342,7 +342,7 @@ struct NewtonMultigridOptions {
                                           ///< many. Three times as many while the residual is above 1
     /// 0 to 1: a step is solved when its residual has fallen to this fraction of the step's load (what
     /// inertia and gravity ask of it), both in the norm of the energy; 0 never stops early.
-    double newton_tolerance = 0.2;
+    double newton_tolerance = 0.3;
     std::uint32_t linear_iterations = 4;  ///< 1 to 10,000 V-cycles: at most, in a Newton iteration
     double linear_tolerance = 0.2;  ///< 0 to 1: the same for each linear system, against the smaller of the
                                     ///< load and its own residual
