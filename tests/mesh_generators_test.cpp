@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "pliant/mesh_generators.hpp"
 #include "test_differences.hpp"
@@ -131,6 +132,105 @@ TEST(MeshGenerators, sheet_faces_up)
     }
 }
 
+// ---- pieces of cloth
+
+/// One oriented piece with so many hems, without any fault.
+MeshReport hemmed_report(const SurfaceMesh& mesh, std::size_t vertices, std::size_t triangles,
+                         std::size_t hems, std::size_t hem_edges)
+{
+    const MeshReport report = inspect_mesh(mesh);
+    EXPECT_EQ(report.vertices, vertices);
+    EXPECT_EQ(report.triangles, triangles);
+    EXPECT_EQ(report.components, 1u);
+    EXPECT_TRUE(report.oriented);
+    EXPECT_EQ(report.boundary_loops, hems);
+    EXPECT_EQ(report.boundary_edges, hem_edges);
+    EXPECT_EQ(report.euler_characteristic, 2 - static_cast<long long>(hems));  // a sphere with holes
+    EXPECT_EQ(report.isolated_vertices + report.non_manifold_edges + report.non_manifold_vertices +
+                  report.degenerate_triangles + report.duplicate_triangles + report.coincident_vertices,
+              0u);
+    return report;
+}
+
+/// Twice the area of a triangle along its normal.
+Vec3d normal_of(const SurfaceMesh& mesh, const Triangle& t)
+{
+    const Vec3d a = to_double(mesh.vertices[t[0]]);
+    return cross(to_double(mesh.vertices[t[1]]) - a, to_double(mesh.vertices[t[2]]) - a);
+}
+
+TEST(MeshGenerators, irregular_sheet)
+{
+    for (const auto& [rows, columns] : {std::pair{2u, 2u}, {3u, 8u}, {40u, 40u}, {126u, 126u}}) {
+        const double side = 1.0 / (rows - 1);
+        const SurfaceMesh mesh = irregular_sheet_mesh({side * (columns - 1), 1, rows, columns});
+        const MeshReport report = hemmed_report(mesh, rows * columns, 2 * (rows - 1) * (columns - 1), 1,
+                                                2 * (rows - 1) + 2 * (columns - 1));
+        EXPECT_NEAR(report.area, side * (columns - 1), 1e-5);
+        EXPECT_GT(report.edge_min, 0.6 * side);
+        EXPECT_LT(report.edge_max, 1.75 * side);
+        for (const Triangle& t : mesh.triangles) EXPECT_GT(normal_of(mesh, t).y, 0.3 * side * side);
+        EXPECT_EQ(mesh.vertices.front(),
+                  sheet_mesh({side * (columns - 1), 1, rows, columns}).vertices.front());
+    }
+    // Irregular: no two squares alike.
+    const MeshReport report = inspect_mesh(irregular_sheet_mesh({1, 1, 40, 40}));
+    EXPECT_GT(report.edge_max, 2 * report.edge_min);
+}
+
+TEST(MeshGenerators, tube)
+{
+    for (const auto& [rows, segments] : {std::pair{2u, 3u}, {3u, 5u}, {64u, 55u}, {120u, 131u}})
+        hemmed_report(tube_mesh({0.16, 1, rows, segments}), rows * segments, 2 * (rows - 1) * segments, 2,
+                      2 * segments);
+    const SurfaceMesh mesh = tube_mesh();
+    const MeshReport report = inspect_mesh(mesh);
+    EXPECT_LT(report.edge_max, 1.01 * report.edge_min);
+    EXPECT_EQ(report.bounds_max.y, 0.5);
+    EXPECT_EQ(report.bounds_min.y, -0.5);
+    EXPECT_NEAR(report.area, 2 * pi * 0.16, 2e-3);
+    for (const Triangle& t : mesh.triangles) {
+        const Vec3d out = to_double(mesh.vertices[t[0]]);
+        EXPECT_GT(dot(normal_of(mesh, t), {out.x, 0, out.z}), 0);
+    }
+}
+
+TEST(MeshGenerators, shirt)
+{
+    for (const std::uint32_t n : {1u, 2u, 3u, 7u}) {
+        SCOPED_TRACE(n);
+        const double side = 0.5 / (10 * n);
+        const SurfaceMesh mesh = shirt_mesh({0.5, n});
+        const MeshReport report =
+            hemmed_report(mesh, 320 * n * n + 22 * n - 2, 640 * n * n, 4, (20 + 16 + 8) * n);
+        EXPECT_GT(report.edge_min, 0.6 * side);
+        EXPECT_LT(report.edge_max, 2.1 * side);
+        EXPECT_NEAR(report.bounds_max.x, 0.45, 1e-6);
+        EXPECT_NEAR(report.bounds_max.y, 0.325, 1e-6);
+        EXPECT_NEAR(report.bounds_min.y, -0.325, 1e-6);
+        // Hem and cuffs by their length around, the neck by its V and the back's straight edge.
+        std::vector<double> loops;
+        for (const BoundaryLoop& loop : report.loops) loops.push_back(static_cast<double>(loop.edges) / n);
+        std::sort(loops.begin(), loops.end());
+        EXPECT_EQ(loops, (std::vector<double>{8, 8, 8, 20}));
+        // The front faces to positive z, the back to negative z: outward.
+        for (const Triangle& t : mesh.triangles) {
+            const Vec3d normal = normal_of(mesh, t);
+            double z = 0;
+            for (const std::uint32_t corner : t) z += double{mesh.vertices[corner].z};
+            EXPECT_GT(normal.z * z, 0);
+            EXPECT_GT(dot(normal, normal), 0.09 * side * side * side * side);
+        }
+    }
+}
+
+TEST(MeshGenerators, cloth_is_the_same_every_time)
+{
+    EXPECT_EQ(shirt_mesh({0.6, 3}).vertices, shirt_mesh({0.6, 3}).vertices);
+    EXPECT_EQ(irregular_sheet_mesh().vertices, irregular_sheet_mesh().vertices);
+    EXPECT_EQ(irregular_sheet_mesh().triangles, irregular_sheet_mesh().triangles);
+}
+
 // ---- the figure
 
 double smallest_angle(const SurfaceMesh& mesh)
@@ -206,6 +306,14 @@ TEST(MeshGenerators, bad_options_are_named)
     EXPECT_ERROR(sheet_mesh({1, nan, 8, 8}), bad_input, "sheet.height is nan m");
     EXPECT_ERROR(blob_mesh({1, 999}), bad_input, "blob.vertices is 999");
     EXPECT_ERROR(blob_mesh({-0.5, 9999}), bad_input, "blob.height is -0.5 m");
+    EXPECT_ERROR(tube_mesh({-1, 1, 8, 8}), bad_input, "tube.radius is -1 m");
+    EXPECT_ERROR(tube_mesh({1, 0, 8, 8}), bad_input, "tube.length is 0 m");
+    EXPECT_ERROR(tube_mesh({1, 1, 1, 8}), bad_input, "tube.rows is 1");
+    EXPECT_ERROR(tube_mesh({1, 1, 8, 2}), bad_input, "tube.segments is 2");
+    EXPECT_ERROR(tube_mesh({1, 1, 4096, 8192}), bad_input, "tube would have 33554432 vertices");
+    EXPECT_ERROR(shirt_mesh({0, 3}), bad_input, "shirt.width is 0 m");
+    EXPECT_ERROR(shirt_mesh({1, 0}), bad_input, "shirt.squares is 0");
+    EXPECT_ERROR(shirt_mesh({1, 201}), bad_input, "between 1 and 200");
 }
 
 }  // namespace

@@ -31,6 +31,7 @@ std::vector<BenchCase> mass_spring_cases(const BenchOptions& options);
 std::vector<BenchCase> constraint_cases(const BenchOptions& options);
 std::vector<BenchCase> acad_cases(const BenchOptions& options);
 std::vector<BenchCase> volume_cases(const BenchOptions& options);
+std::vector<BenchCase> garment_cases(const BenchOptions& options);  ///< of the suite constraint
 std::vector<BenchCase> stability_cases(const BenchOptions& options);
 
 // Scenes (bench_scenes.cpp). Frames are 1/60 s.
@@ -42,6 +43,11 @@ Scene hanging_sheet(std::uint32_t n, double compliance, double density = 0.3);
 Scene hanging_mesh(std::uint32_t nodes, double compliance);
 /// The same of the mesh in a file, which its first two vertices hold.
 Scene hanging_file(const std::string& mesh_file, double compliance);
+/// Pieces of about as many nodes, let go from the horizontal and held at two nodes: a disc of 1 m, a tube 1 m
+/// long at one end, a T-shirt 0.5 m wide at its shoulders. Compliance 1e-6 m/N.
+Scene hanging_disc(std::uint32_t nodes);
+Scene hanging_tube(std::uint32_t nodes);
+Scene hanging_shirt(std::uint32_t nodes);
 /// Makes bend springs constraints, too.
 void bend_by_constraints(Scene& scene, double compliance);
 

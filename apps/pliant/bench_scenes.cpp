@@ -1,12 +1,15 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <random>
+#include <utility>
 
 #include "bench_command.hpp"
+#include "pliant/mesh_generators.hpp"
 
 namespace pliant::tool {
 namespace {
+
+constexpr double garment_compliance = 1e-6;  // m/N
 
 void make_constraint(SpringParameters& springs, double compliance)
 {
@@ -27,39 +30,34 @@ Scene hung(Cloth cloth, double compliance)
     return scene;
 }
 
-/// A patch of 1 m x 1 m whose vertices are jittered, whose diagonals go either way, and whose numbers are
-/// drawn, so that nothing in its order helps. The first two vertices are the corners that hold it.
-SurfaceMesh irregular_mesh(std::uint32_t n)
+/// The vertex next to a place of the mesh, m.
+std::uint32_t vertex_at(const SurfaceMesh& mesh, Vec3d place)
 {
-    std::mt19937 engine(7);
-    std::uniform_real_distribution<float> jitter(-0.25f, 0.25f);
-    std::vector<std::uint32_t> number(std::size_t{n} * n);
-    for (std::uint32_t i = 0; i < n * n; ++i) number[i] = i;
-    for (std::uint32_t i = n * n - 1; i > 0; --i)
-        std::swap(number[i], number[engine() % (std::uint64_t{i} + 1)]);
-    std::swap(number[0], *std::find(number.begin(), number.end(), 0u));
-    std::swap(number[n - 1], *std::find(number.begin(), number.end(), 1u));
+    const auto distance2 = [&](Vec3 x) {
+        const Vec3d d = to_double(x) - place;
+        return dot(d, d);
+    };
+    const auto nearest = std::min_element(mesh.vertices.begin(), mesh.vertices.end(),
+                                          [&](Vec3 a, Vec3 b) { return distance2(a) < distance2(b); });
+    return static_cast<std::uint32_t>(nearest - mesh.vertices.begin());
+}
 
-    SurfaceMesh mesh;
-    mesh.vertices.resize(number.size());
-    const float h = 1.0f / static_cast<float>(n - 1);
-    for (std::uint32_t r = 0; r < n; ++r)
-        for (std::uint32_t c = 0; c < n; ++c)
-            mesh.vertices[number[r * n + c]] = {h * (static_cast<float>(c) + jitter(engine)), 0,
-                                                h * (static_cast<float>(r) + jitter(engine))};
-    for (std::uint32_t r = 0; r + 1 < n; ++r)
-        for (std::uint32_t c = 0; c + 1 < n; ++c) {
-            const std::uint32_t a = number[r * n + c], b = number[r * n + c + 1];
-            const std::uint32_t d = number[(r + 1) * n + c], e = number[(r + 1) * n + c + 1];
-            if (engine() % 2) {
-                mesh.triangles.push_back({a, d, b});
-                mesh.triangles.push_back({b, d, e});
-            } else {
-                mesh.triangles.push_back({a, d, e});
-                mesh.triangles.push_back({a, e, b});
-            }
-        }
-    return mesh;
+/// As many parts as `nodes` ask for when one part makes `per_part2` nodes, and the number goes with its
+/// square.
+std::uint32_t parts_of(std::uint32_t nodes, double per_part2)
+{
+    return static_cast<std::uint32_t>(std::max(1l, std::lround(std::sqrt(nodes / per_part2))));
+}
+
+/// Held at the vertices next to two places of the standing mesh, and lying, so that it falls as the others
+/// do.
+Scene hung_at(SurfaceMesh mesh, Vec3d left, Vec3d right)
+{
+    const std::uint32_t first = vertex_at(mesh, left), second = vertex_at(mesh, right);
+    Cloth cloth = Cloth::mesh(std::move(mesh), {.density = 0.3});
+    cloth.rotation = {-90, 0, 0};
+    cloth.pin(first).pin(second);
+    return hung(std::move(cloth), garment_compliance);
 }
 
 }  // namespace
@@ -73,9 +71,9 @@ Scene hanging_sheet(std::uint32_t n, double compliance, double density)
 
 Scene hanging_mesh(std::uint32_t nodes, double compliance)
 {
-    const auto n = static_cast<std::uint32_t>(std::lround(std::sqrt(nodes)));
-    Cloth cloth = Cloth::mesh(irregular_mesh(n), {.density = 0.3});
-    cloth.pin(0u).pin(1u);
+    const std::uint32_t n = parts_of(nodes, 1);
+    Cloth cloth = Cloth::mesh(irregular_sheet_mesh({.rows = n, .columns = n}), {.density = 0.3});
+    cloth.pin(0u).pin(n - 1);
     return hung(std::move(cloth), compliance);
 }
 
@@ -84,6 +82,30 @@ Scene hanging_file(const std::string& mesh_file, double compliance)
     Cloth cloth = Cloth::mesh(read_mesh(mesh_file), {.density = 0.3});
     cloth.pin(0u).pin(1u);
     return hung(std::move(cloth), compliance);
+}
+
+Scene hanging_disc(std::uint32_t nodes)
+{
+    const std::uint32_t rings = parts_of(nodes, 3), hem = 1 + 3 * rings * (rings - 1);
+    Cloth cloth = Cloth::disc({.radius = 0.5, .rings = rings, .density = 0.3});
+    cloth.pin(hem + 3 * rings / 4).pin(hem + 9 * rings / 4);  // an eighth and three eighths around
+    return hung(std::move(cloth), garment_compliance);
+}
+
+Scene hanging_tube(std::uint32_t nodes)
+{
+    TubeOptions tube;
+    const double per_row = double(tube.segments) / tube.rows;  // of triangles of equal sides
+    tube.rows = std::max(2u, parts_of(nodes, per_row));
+    tube.segments = std::max(3u, nodes / tube.rows);
+    return hung_at(tube_mesh(tube), {-tube.radius, tube.length / 2, 0}, {tube.radius, tube.length / 2, 0});
+}
+
+Scene hanging_shirt(std::uint32_t nodes)
+{
+    const ShirtOptions shirt{.squares = parts_of(nodes, 320)};
+    const double shoulder = shirt.width / 4, top = 0.65 * shirt.width;
+    return hung_at(shirt_mesh(shirt), {-shoulder, top, 0}, {shoulder, top, 0});
 }
 
 void bend_by_constraints(Scene& scene, double compliance)

@@ -66,6 +66,33 @@ struct SheetMeshOptions {
 };
 SurfaceMesh sheet_mesh(const SheetMeshOptions& options = {});
 
+/// The same rectangle as an irregular mesh: vertices inside it are moved by up to a fifth of the distance to
+/// their neighbours, the same way in every run, and each square is cut along its shorter diagonal.
+SurfaceMesh irregular_sheet_mesh(const SheetMeshOptions& options = {});
+
+/// An open tube around the y axis that faces outward, of nearly equal triangles when length / (rows - 1) is
+/// 0.87 of 2 pi radius / segments: rows x segments vertices, row by row from the top, every other row turned
+/// by half a segment.
+struct TubeOptions {
+    double radius = 0.16;         ///< m
+    double length = 1;            ///< m
+    std::uint32_t rows = 64;      ///< 2 to 4096 circles along the axis
+    std::uint32_t segments = 55;  ///< 3 to 8192 around it
+};
+SurfaceMesh tube_mesh(const TubeOptions& options = {});
+
+/// A T-shirt: two panels in the shape of a T, body and short sleeves, sewn along shoulders, sleeves and
+/// sides; open at the neck (cut to a V in front), at both cuffs and at the hem. It stands upright (y), its
+/// front looks to positive z, and it faces outward. The panels lie apart as if a little air were between
+/// them. Their squares have a side s of width / (10 n), moved and cut as those of irregular_sheet_mesh: 320
+/// n^2 + 22 n - 2 vertices, 640 n^2 triangles. In s: the body is 10 n wide and 13 n long, a sleeve 4 n by 4
+/// n, the neck 4 n wide and 2 n deep.
+struct ShirtOptions {
+    double width = 0.5;         ///< m, of the body
+    std::uint32_t squares = 7;  ///< n, 1 to 200: squares along a tenth of the width
+};
+SurfaceMesh shirt_mesh(const ShirtOptions& options = {});
+
 /// A figure with body, head, ears, arms and legs, rounded where they join: one closed component without a
 /// handle, of nearly equal, well-shaped triangles. It stands upright (y) and looks to positive z.
 struct BlobOptions {

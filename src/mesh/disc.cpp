@@ -3,21 +3,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "mesh/scattering.hpp"
+
 namespace pliant {
-namespace {
-
-/// Between 0 and 1, from a node's index alone, so that a disc is the same on every machine; the finaliser of
-/// MurmurHash3 (Appleby), which spreads neighbouring indices over all bits.
-double scattered(std::uint32_t index)
-{
-    std::uint32_t h = index * 2'654'435'769u + 1u;
-    h = (h ^ (h >> 16)) * 0x85EB'CA6Bu;
-    h = (h ^ (h >> 13)) * 0xC2B2'AE35u;
-    return static_cast<double>(h ^ (h >> 16)) / 4'294'967'296.0;
-}
-
-}  // namespace
-
 SurfaceMesh make_disc(double radius, std::uint32_t rings)
 {
     constexpr double jitter = 0.2;  // of the distance between rings; triangles turn over from about 0.4 on
@@ -33,10 +21,9 @@ SurfaceMesh make_disc(double radius, std::uint32_t rings)
             double x = spacing * ring * std::cos(angle), z = spacing * ring * std::sin(angle);
             if (ring < rings) {  // the hem stays round
                 const auto index = static_cast<std::uint32_t>(mesh.vertices.size());
-                const double distance = jitter * spacing * std::sqrt(scattered(2 * index));
-                const double direction = turn * scattered(2 * index + 1);
-                x += distance * std::cos(direction);
-                z += distance * std::sin(direction);
+                const Scatter moved = scatter(index, jitter * spacing);
+                x += moved.x;
+                z += moved.y;
             }
             mesh.vertices.push_back({static_cast<float>(x), 0, static_cast<float>(z)});
         }
