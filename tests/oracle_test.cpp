@@ -43,6 +43,7 @@ struct OracleCase {
     bool contact = false;
     double slippery = 1;  ///< of friction
     bool remembers = false;
+    bool second_order = false;  ///< in time, after a step
 };
 void PrintTo(const OracleCase& c, std::ostream* out) { *out << c.name; }
 
@@ -57,6 +58,11 @@ const OracleCase cases[] = {
     {.name = "sheet_slides", .damping = 0.2, .contact = true, .slippery = 0.002},
     {.name = "sheet_quadratic", .quadratic = true, .damping = 0.2, .contact = true},
     {.name = "sheet_remembers", .limit = 0.02, .contact = true, .remembers = true},
+    {.name = "sheet_second_order", .resists = Resists::both, .damping = 0.4, .second_order = true},
+    {.name = "sheet_bend_second_order", .bend = SpringRole::constraint, .damping = 0.3, .second_order = true},
+    {.name = "sheet_springs_second_order", .implicit_euler = true, .damping = 0.5, .second_order = true},
+    {.name = "sheet_remembers_second_order", .limit = 0.02, .remembers = true, .second_order = true},
+    {.name = "disc_second_order", .disc = true, .damping = 0.3, .second_order = true},
     {.name = "disc_remembers", .disc = true, .resists = Resists::both, .remembers = true},
     {.name = "disc", .disc = true},
     {.name = "disc_both", .disc = true, .resists = Resists::both, .damping = 0.3},
@@ -98,6 +104,7 @@ Scene scene_of(const OracleCase& c, bool taut)
     scene.method = c.implicit_euler ? Method::mass_spring : Method::constraint;
     if (c.implicit_euler) scene.integrator = Integrator::implicit_euler;
     scene.newton_multigrid.resists = c.resists;
+    scene.newton_multigrid.order = c.second_order ? 2 : 1;
     scene.newton_multigrid.enforcement = c.remembers ? Enforcement::multiplier : Enforcement::penalty;
     scene.newton_multigrid.contact_stiffness = contact_stiffness;
     scene.newton_multigrid.friction_speed = 0.05;
@@ -143,6 +150,13 @@ struct Bench {
             input.is_pinned.push_back(!(model.inverse_mass(node) > 0));
             input.destination.push_back(input.position.back());
         }
+        if (c.second_order) {  // a pin's way ends where it is, and its velocity says nothing
+            for (std::uint32_t vertex = 0; vertex < count; ++vertex) {
+                const Vec3d v = to_double(model.velocities[model.node(vertex)]);
+                way.push_back(oracle::point_of(to_double(to_float(v * dt + any(0.3 * speed * dt)))));
+                before.push_back(oracle::point_of(to_double(to_float(v + any(0.3 * speed)))));
+            }
+        }
         attached.resize(1);
         for (const AttachedNode& a : model.attached) {
             const Vec3 x = model.positions[a.node];
@@ -156,15 +170,35 @@ struct Bench {
             if (placed.moves) placed.centre = placed.centre - placed.velocity * 0.5;
         input.colliders = colliders;
         if (c.remembers) input.softest = model.softest_limit(dt);
+        if (c.second_order) input = ImplicitStep::second_order(std::move(input), way, before);
         step.emplace(std::move(input));
     }
 
     void run(PassRunner& runner, std::vector<Call> calls) const
     {
+        tell_the_step_before(runner);
         const std::uint32_t parity_after = 1;
         static std::uint64_t programs = 0;
         runner.run({++programs, std::move(calls), parity_after},
                    {dt, static_cast<std::uint32_t>(colliders.size()), colliders, true, attached});
+    }
+    /// Writes it where the solver keeps it.
+    void tell_the_step_before(PassRunner& runner) const
+    {
+        const SolverLevel& level = model.hierarchy.levels.front();
+        const auto write = [&](int number, std::uint32_t node, double value) {
+            const auto place = static_cast<int>(node) / level.columns;
+            const int at = level.base + (model.hierarchy.history_plane + number) * level.size +
+                           Hierarchy::offset(level, place, static_cast<int>(node) - place * level.columns);
+            const auto written = static_cast<float>(value);
+            runner.write_solver_numbers(0, static_cast<std::size_t>(at), {&written, 1});
+        };
+        for (std::uint32_t vertex = 0; vertex < way.size(); ++vertex)
+            for (int k = 0; k < 3; ++k) {
+                write(history_way + k, model.node(vertex), way[vertex][k]);
+                write(history_velocity + k, model.node(vertex), before[vertex][k]);
+                if (k == 0) write(history_step, model.node(vertex), dt);
+            }
     }
     /// The first look at a step.
     std::vector<Call> look() const
@@ -179,6 +213,7 @@ struct Bench {
     ClothModel model;
     std::vector<PlacedCollider> colliders;
     std::vector<std::vector<Vec3>> attached;
+    std::vector<Point> way, before;  ///< m, m/s, by vertex: of the step before, where there was one
     std::optional<ImplicitStep> step;
 };
 
@@ -269,9 +304,11 @@ TEST_P(StepOracle, HasTheForcesTheEnergyAndTheOperator)
         const std::string& who = machine.name;
         bench.run(*machine.runner, bench.look());
         const SolverArena arena(bench.model, *machine.runner, machine.on_host);
-        expect_near(arena.vector(plane_t), t, 2 * rounding * 0.05, who + ", start");
+        // Of second order a pin starts from where its step before led, a sum of up to 0.5 m.
+        const double place = c.second_order ? rounding * 0.5 : 0;
+        expect_near(arena.vector(plane_t), t, 2 * rounding * 0.05 + place, who + ", start");
         // On the CPU y is rounded where it is made of terms of up to 1 m/s.
-        expect_near(arena.vector(plane_y), step.aim(), 4 * rounding * 0.05, who + ", aim");
+        expect_near(arena.vector(plane_y), step.aim(), 4 * rounding * 0.05 + place, who + ", aim");
 
         const Vector force = step.force(t);
         const Matrix newton = step.newton_matrix(t), coarse = step.coarse_matrix(t);
@@ -367,10 +404,9 @@ TEST_P(StepEnd, IsWhereTheEnergyIsLeast)
         for (std::uint32_t vertex = 0; vertex < bench.model.node_count(); ++vertex)
             for (std::uint32_t k = 0; k < 3; ++k) {
                 const std::uint32_t at = 3 * bench.model.node(vertex) + k;
-                found[3 * vertex + k] = double{v[at]} * dt;
+                found[3 * vertex + k] = double{v[at]} * step.input().dt;
                 place[3 * vertex + k] = double{x[at]};
-                const Vec3 q = bench.model.positions[bench.model.node(vertex)];
-                start[3 * vertex + k] = double{k == 0 ? q.x : k == 1 ? q.y : q.z};
+                start[3 * vertex + k] = step.input().position[vertex][k];
             }
         // With contact there are two such ends, one after the other, and the oracle's own stop at 2e-9 m.
         const double of_ends = c.contact ? 3 * (of_tolerance + 2e-9) : of_tolerance;
@@ -379,7 +415,9 @@ TEST_P(StepEnd, IsWhereTheEnergyIsLeast)
         EXPECT_LE((found - least).lpNorm<Eigen::Infinity>(), bar) << machine.name;
         EXPECT_LE((place - start - least).lpNorm<Eigen::Infinity>(), bar + rounding) << machine.name;
         if (machine.exact) {
-            EXPECT_LE(machine.runner->solver_scalar(0, scalar_residual_last), 1e-6) << machine.name;
+            // What remembers may leave ten times as much where there is no collider.
+            const double residual = c.remembers && !c.contact ? 1e-5 : 1e-6;
+            EXPECT_LE(machine.runner->solver_scalar(0, scalar_residual_last), residual) << machine.name;
         }
     }
 }

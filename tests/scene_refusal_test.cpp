@@ -126,6 +126,7 @@ TEST(Scene, WrongFilesAreExplained)
          {"newton_multigrid.resists is \"compression\"", "one of tension, both"}},
         {with(R"(, "newton_multigrid": {"contact_stiffness": -1})"),
          {"newton_multigrid.contact_stiffness is -1 N/m", "between 0 and 1e9 N/m"}},
+        {with(R"(, "newton_multigrid": {"order": 3})"), {"newton_multigrid.order is 3", "between 1 and 2"}},
         {with(R"(, "newton_multigrid": {"friction_speed": 2})"),
          {"newton_multigrid.friction_speed is 2 m/s", "above 0 and at most 1 m/s"}},
         {with(R"(, "newton_multigrid": {"newton_iteration": 3})"),

@@ -59,7 +59,7 @@ TEST(Scene, TheOptionsOfMethodsAreRead)
 {
     const Scene scene = scene_of(R"({"pliant": 1, "method": "constraint", "solver": "paper",
         "newton_multigrid": {"newton_iterations": 7, "newton_tolerance": 0.01, "linear_iterations": 9,
-            "linear_tolerance": 0.2, "step_cuts": 1, "smoothing": 2, "resists": "both", "contact_stiffness": 2e4,
+            "linear_tolerance": 0.2, "step_cuts": 1, "smoothing": 2, "order": 2, "resists": "both", "contact_stiffness": 2e4,
             "friction_speed": 0.01},
         "paper": {"tolerance": 1e-5, "max_iterations": 300, "compliance": 1e-8},
         "acad": {"activate_at": 0.2, "deactivate_at": 0.1, "compression": true, "target": "rest",
@@ -78,6 +78,7 @@ TEST(Scene, TheOptionsOfMethodsAreRead)
     EXPECT_EQ(scene.newton_multigrid.resists, Resists::both);
     EXPECT_EQ(scene.newton_multigrid.contact_stiffness, 2e4);
     EXPECT_EQ(scene.newton_multigrid.friction_speed, 0.01);
+    EXPECT_EQ(scene.newton_multigrid.order, 2U);
     EXPECT_EQ(scene.paper.tolerance, 1e-5);
     EXPECT_EQ(scene.paper.max_iterations, 300U);
     EXPECT_EQ(scene.paper.compliance, 1e-8);

@@ -50,6 +50,7 @@ BAD = [
     ("too much smoothing", "newton_multigrid.smoothing", 9),
     ("an unknown direction", "newton_multigrid.resists", "compression"),
     ("colliders of a negative stiffness", "newton_multigrid.contact_stiffness", -1),
+    ("a third order", "newton_multigrid.order", 3),
     ("friction at no speed", "newton_multigrid.friction_speed", 0),
     ("an option of another solver", "newton_multigrid.max_iterations", 5),
     ("a tolerance of zero", "paper.tolerance", 0),

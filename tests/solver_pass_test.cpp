@@ -28,6 +28,7 @@ struct SolverCase {
     bool graded = false;       ///< springs have numbers of their own
     std::uint32_t rings = 0;   ///< a disc
     std::uint32_t spokes = 0;  ///< a wheel
+    std::uint32_t order = 1;   ///< in time
 };
 void PrintTo(const SolverCase& c, std::ostream* out) { *out << c.name; }
 
@@ -57,6 +58,9 @@ const SolverCase cases[] = {
     {.name = "acad_wheel", .method = Method::acad, .spokes = 70},
     {.name = "graded_sheet", .rows = 9, .columns = 13, .smoothing = 2, .graded = true},
     {.name = "graded_mesh", .rows = 9, .columns = 13, .mesh = true, .graded = true},
+    {.name = "sheet_second_order", .rows = 17, .columns = 35, .order = 2},
+    {.name = "bent_second_order", .rows = 9, .columns = 21, .stiff_bend = true, .order = 2},
+    {.name = "mesh_second_order", .rows = 17, .columns = 13, .mesh = true, .order = 2},
     {.name = "acad_graded", .rows = 9, .columns = 11, .method = Method::acad, .graded = true},
     {.name = "acad_sheet", .rows = 9, .columns = 11, .method = Method::acad},
     {.name = "acad_mesh", .rows = 9, .columns = 11, .mesh = true, .method = Method::acad},
@@ -97,6 +101,7 @@ Scene scene_of(const SolverCase& c)
     scene.solver = c.solver;
     scene.newton_multigrid.preconditioner = c.preconditioner;
     scene.newton_multigrid.smoothing = c.smoothing;
+    scene.newton_multigrid.order = c.order;
     scene.newton_multigrid.linear_iterations = c.preconditioner == Preconditioner::multigrid ? 10 : 40;
     scene.newton_multigrid.linear_tolerance = 1e-4;
     scene.newton_multigrid.newton_tolerance = 1e-5;

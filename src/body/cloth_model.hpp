@@ -137,6 +137,14 @@ public:
     /// ACAD where it can: a step is one of springs alone, and the solver makes good what it stretched too
     /// far.
     bool corrects_steps() const { return method == Method::acad && !acad_implicit; }
+    /// Implicit steps go by the step before, too: BDF2 (docs/physics.md, "Constraints").
+    bool is_second_order() const
+    {
+        return newton.order == 2 && uses_solver(method) && solver == Solver::newton_multigrid &&
+               !corrects_steps();
+    }
+    /// s: an implicit step of a cloth that knows the step before is one of implicit Euler of this length.
+    double implicit_step(double step_length) const { return (is_second_order() ? 2.0 / 3 : 1) * step_length; }
     /// A step adds external_force to its nodes: wind, or the loads of a body.
     bool has_external_force() const { return feels_air() || (body && !body->loads.empty()); }
     /// Springs, and the ring of neighbours, are gathered in one pass, which needs no list of forces.

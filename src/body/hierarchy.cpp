@@ -59,7 +59,9 @@ void Hierarchy::build_sheet(const ClothModel& cloth)
     constexpr std::int32_t few = 3;
     auto rows = static_cast<std::int32_t>(cloth.sheet->rows),
          columns = static_cast<std::int32_t>(cloth.sheet->columns);
-    append_level(rows, columns, cloth.bends_by_constraints() ? bent_sheet_planes : sheet_planes);
+    std::int32_t planes = cloth.bends_by_constraints() ? bent_sheet_planes : sheet_planes;
+    if (cloth.is_second_order()) history_plane = std::exchange(planes, planes + history_planes);
+    append_level(rows, columns, planes);
     do {
         rows = rows / 2 + 1;
         columns = columns / 2 + 1;

@@ -66,6 +66,7 @@ public:
     std::vector<double> rest_lengths;     ///< m, of the edges of a mesh
     std::vector<double> scales, bending;  ///< of graded springs, as Spring has them
     std::size_t number_count = 0;         ///< of the arena
+    std::int32_t history_plane = 0;       ///< of the cloth: where history_planes begin; 0: there are none
     std::int32_t bottom_base = 0;         ///< where the dense operator of the last level lies
     ConstraintRows constraints;           ///< of the solver paper, which has no levels but the cloth
 

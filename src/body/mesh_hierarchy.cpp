@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "body/node_layout.hpp"
 #include "kernels/planes.hpp"
@@ -358,9 +359,11 @@ void Hierarchy::build_mesh(const ClothModel& cloth)
     const SolverSprings list = solver_springs(cloth);
     MeshGraph graph;
     graph.node_count = cloth.node_count();
+    std::int32_t planes = node_planes;
+    if (cloth.is_second_order()) history_plane = std::exchange(planes, planes + history_planes);
     SolverLevel* level =
         &append_mesh_level(static_cast<std::int32_t>(cloth.node_count()),
-                           static_cast<std::int32_t>(list.springs.size()), node_planes, edge_planes);
+                           static_cast<std::int32_t>(list.springs.size()), planes, edge_planes);
     std::vector<Side> sides, held;
     level->edge_ends = writer.position();
     for (std::uint32_t e = 0; e < list.springs.size(); ++e) {

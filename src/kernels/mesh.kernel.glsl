@@ -54,7 +54,8 @@ KERNEL void mesh_springs(int e)
     int i = topology(ends), j = topology(ends + 1);
     vec3 start = load3(plane_q, j) - load3(plane_q, i), moved = load3(plane_t, j) - load3(plane_t, i);
     SpringShare spring =
-        spring_share(mesh_limit(e, mesh_class(e)), start, moved, edge_load(edge_rest, e), mesh_scale(e));
+        spring_share(damped_between(mesh_limit(e, mesh_class(e)), i, j), start, moved, damper_between(start, i, j),
+                     edge_load(edge_rest, e), mesh_scale(e));
     spring = with_bending(e, spring, start + moved);
     edge_store3(edge_force, e, spring.force);
     edge_store6(edge_block, e, spring.block);

@@ -36,6 +36,36 @@ KERNEL RenewedLimit renewed(LimitCurve curve, real length2, real rest_length, in
     return limit;
 }
 
+// A step of second order, BDF2. With the step before, from x_before and v_before to x and v, and s = 2/3 h,
+//   x' = q + t,  q = x + (x - x_before) / 3,   M (v' - mean) / s = F,  mean = v + (v - v_before) / 3,   v' = t / s
+// is an implicit Euler step of the length s from (q, mean), so that all else is as it was. A node that does not know the
+// step before, because it was none of the same length or the node touched a collider in it, makes one of Euler: q = x,
+// mean = v, s = h.
+// Source: Hairer, Wanner, "Solving Ordinary Differential Equations II", 1996, section V.1.
+KERNEL mask knows_before(int o)
+{
+    real h = step_length();
+    return h * 1e-3f > magnitude(load(history_plane() + history_step, o) - h);
+}
+KERNEL real step_of(int o)
+{
+    if (!is_second_order()) return step_length();
+    return choose(knows_before(o), short_step(), step_length());
+}
+KERNEL real inverse_step_of(int o)
+{
+    if (!is_second_order()) return inverse_step();
+    return choose(knows_before(o), inverse_short_step(), inverse_step());
+}
+// Dampers of springs between two nodes: their number is for steps that both know.
+KERNEL LimitCurve damped_between(LimitCurve curve, int i, int j)
+{
+    if (!is_second_order() || !has_damping()) return curve;
+    real first_order = curve.damping - curve.damping * third();
+    curve.damping = choose(both(knows_before(i), knows_before(j)), curve.damping, first_order);
+    return curve;
+}
+
 // A spring between two nodes in a step: the force on the first, N, and what the operator and the energy take from it.
 struct SpringShare
 {
@@ -44,9 +74,17 @@ struct SpringShare
     real energy, multiplier;
 };
 
-// state: of the spring as it is now; start: x_j - x_i when the step began; d: now; scale: 1, or 0 where there is no such
-// spring
-KERNEL SpringShare share_of(SpringState state, real damping_of_class, vec3 start, vec3 d, real inverse_length, real scale)
+// The direction that dampers act along: that of the spring when the step began. At second order, where inertia takes it.
+KERNEL vec3 damper_between(vec3 start, int i, int j)
+{
+    if (!is_second_order() || !has_damping()) return start;
+    return start + (load3(plane_y, j) - load3(plane_y, i));
+}
+
+// state: of the spring as it is now; start: x_j - x_i when the step began; d: now; damper: see above; scale: 1, or 0 where
+// there is no such spring
+KERNEL SpringShare share_of(SpringState state, real damping_of_class, vec3 start, vec3 d, vec3 damper, real inverse_length,
+                            real scale)
 {
     vec3 n = d * inverse_length;
     SpringShare share;
@@ -55,7 +93,7 @@ KERNEL SpringShare share_of(SpringState state, real damping_of_class, vec3 start
     share.energy = state.energy * scale;
     share.multiplier = state.multiplier * scale;
     if (has_damping()) {
-        vec3 n0 = start * inverse_sqrt(dot3(start, start));
+        vec3 n0 = damper * inverse_sqrt(dot3(damper, damper));
         real along = dot3(d - start, n0), damping = damping_of_class * scale;
         share.force = share.force + n0 * (damping * along);
         share.block = plus(share.block, symmetric_about(n0, damping, real(0.0f)));
@@ -65,12 +103,13 @@ KERNEL SpringShare share_of(SpringState state, real damping_of_class, vec3 start
 }
 
 // moved: t_j - t_i
-KERNEL SpringShare spring_share(LimitCurve curve, vec3 start, vec3 moved, real rest_length, real scale)
+KERNEL SpringShare spring_share(LimitCurve curve, vec3 start, vec3 moved, vec3 damper, real rest_length, real scale)
 {
     vec3 d = start + moved;
     real length2 = dot3(d, d);
     real inverse_length = inverse_sqrt(length2);
-    return share_of(spring_state(curve, length2, inverse_length, rest_length), curve.damping, start, d, inverse_length, scale);
+    return share_of(spring_state(curve, length2, inverse_length, rest_length), curve.damping, start, d, damper, inverse_length,
+                    scale);
 }
 
 // Contact of a node with the solid parts of the scene: an augmented Lagrangian, as the springs' limits are one. A node that
@@ -177,21 +216,46 @@ KERNEL void leave_grip(int o, Grip g)
     store(plane_grip, o, choose(is_free, g.grip, real(0.0f)));
 }
 
+// A node that may meet a collider in this step or the next one makes steps of first order: by BDF2 one that is stopped is
+// thrown back by half of what it came with, and what hangs on it with it.
+KERNEL void forget_near_colliders(int o, vec3 x, vec3 v)
+{
+    int before = history_plane() + history_step;
+    real kept = load(before, o);
+    for (int k = 0; k < collider_count(); ++k) {
+        vec3 way = (v - collider_surface_velocity(collider(k), x)) * step_length();
+        real length2 = dot3(way, way), reach = thickness() + 2.0f * (length2 * inverse_sqrt(length2));
+        kept = choose(reach > collider_gap(collider(k), x).w, real(0.0f), kept);
+    }
+    store(before, o, kept);
+}
+
 // The start of a step. Friction knows the normal force that the last step ended with; of a node that touches a collider
 // without having been found there by a step, what its depth makes of it.
 KERNEL void step_begin(int o)
 {
-    vec3 q = node_position(o), v = node_velocity(o);
-    real w = node_inverse_mass(o);
+    vec3 q = node_position(o), v = node_velocity(o), mean = v;
+    if (is_second_order()) {
+        forget_near_colliders(o, q, v);
+        real part = choose(knows_before(o), third(), real(0.0f));
+        q = q + load3(history_plane() + history_way, o) * part;
+        mean = v + (v - load3(history_plane() + history_velocity, o)) * part;
+    }
+    real w = node_inverse_mass(o), step = step_of(o), inverse_step = inverse_step_of(o);
     mask is_free = w > 0.0f;
-    real mass = choose(is_free, node_mass(o) * inverse_step() * inverse_step(), real(0.0f));
-    vec3 start = choose(is_free, v * step_length(), node_next_position(o) - q);
+    real mass = choose(is_free, node_mass(o) * inverse_step * inverse_step, real(0.0f));
+    vec3 start = choose(is_free, v * step, node_next_position(o) - q);
     // A hand aims, too, but does not move the start: that its node is ahead of what it hangs on is for Newton's method
     // to find, and not a stretched spring to begin with.
-    vec3 pulled = v;
+    vec3 pulled = mean;
     if (hand_is_near(o))
-        pulled = where_held(o, grabbed_velocity(q, v, hand_target(), gravity(), hand_pull(), hand_hold(), step_length()), v);
-    vec3 aim = (pulled * decay() + (gravity() + node_force(o) * w) * step_length()) * step_length();
+        pulled = where_held(o, grabbed_velocity(q, mean, hand_target(), gravity(), hand_pull(), hand_hold(), step), mean);
+    vec3 push = (gravity() + node_force(o) * w) * step, aim = (pulled * decay() + push) * step;
+    if (is_second_order()) {  // air by the velocity at the end: what it takes is inertia
+        real weight = air() * step + 1.0f;
+        aim = (pulled + push) * (step * reciprocal(weight));
+        mass = mass * weight;
+    }
     aim = choose(is_free, aim, start);
     store3(plane_q, o, q);
     store3(plane_t, o, start);
@@ -204,7 +268,7 @@ KERNEL void step_begin(int o)
     Grip g = no_grip();
     real touched = load(plane_touched, o), press = load(plane_press, o), k_node = contact_stiffness_of(o);
     for (int k = 0; k < collider_count(); ++k) {
-        vec3 carried = collider_surface_velocity(collider(k), q) * step_length();
+        vec3 carried = collider_surface_velocity(collider(k), q) * step;
         vec4 contact = collider_gap(collider(k), q + carried);
         real found = k_node * largest(thickness() - contact.w, real(0.0f));
         found = choose(touched > 0.0f, choose(is_number(touched, k + 1), press, real(0.0f)), found);
@@ -239,7 +303,7 @@ KERNEL void contact_keep(int o)
     Grip g = no_grip();
     for (int k = 0; k < collider_count(); ++k)
         g = with_collider(g, collider(k), xyz(collider_gap(collider(k), q + t)),
-                          collider_surface_velocity(collider(k), q) * step_length(),
+                          collider_surface_velocity(collider(k), q) * step_of(o),
                           choose(is_number(contact.touched, k + 1), contact.press, real(0.0f)));
     store(plane_press, o, contact.press);
     store(plane_touched, o, contact.touched);
@@ -289,17 +353,27 @@ KERNEL void search_move(int o)
     store3(plane_t, o, load3(plane_u, o) + load3(plane_x, o) * scalar(scalar_step));
 }
 
-// v' = t / dt, x' = q + t. The sum is the work of everything but springs and gravity's share of inertia, for the balance
+// v' = t / dt, x' = q + t. A node that touches a collider has the velocity of its way in this step: by BDF2 one that is
+// stopped would be thrown back by half of what it came with. The sum is the work of everything but springs and gravity's share of inertia, for the balance
 // of energy in solve_end.
 KERNEL void step_end(int o)
 {
     vec3 t = load3(plane_t, o);
-    node_end(o, load3(plane_q, o) + t, settled_velocity(t * inverse_step()));
+    vec3 v = t * inverse_step_of(o), way = t;
     vec3 inertia = (t - load3(plane_y, o)) * load(plane_mass, o);
     Contact contact = contact_at(o, load3(plane_q, o), t);
     store(plane_press, o, contact.press);
     store(plane_touched, o, contact.touched);
     store(plane_firm, o, firm_for(load(plane_firm, o) * 0.5f, contact.depth));
-    sums[0] = sums[0] + dot3(contact.force - inertia, t);
+    if (is_second_order()) {
+        way = t + (load3(plane_q, o) - node_position(o));
+        mask touches = contact.press > 0.0f;
+        v = choose(touches, way * inverse_step(), v);
+        store3(history_plane() + history_way, o, way);
+        store3(history_plane() + history_velocity, o, node_velocity(o));
+        store(history_plane() + history_step, o, choose(touches, real(0.0f), step_length()));
+    }
+    node_end(o, load3(plane_q, o) + t, settled_velocity(v));
+    sums[0] = sums[0] + dot3(contact.force - inertia, way);
     sums[1] = sums[1] + load(plane_active, o);
 }

@@ -42,6 +42,13 @@ const int plane_bend = 101;
 const int plane_fold = 113;
 const int bent_sheet_planes = 125;
 
+// Of the step before, where steps are of second order: the planes from history_plane() on, after all others of a node,
+// kept from step to step.
+const int history_way = 0;     // m, how far it went
+const int history_velocity = 3; // m/s, that it began with
+const int history_step = 6;    // s, how long it was; 0 where the next one is to be of first order
+const int history_planes = 7;
+
 // Of a mesh's spring; a coupling of a coarser level has the block alone. Row sums of nodes come after the blocks.
 const int edge_block = 0;      // N/m
 const int edge_force = 6;      // N, on the first node

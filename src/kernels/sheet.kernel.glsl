@@ -28,8 +28,9 @@ KERNEL LimitCurve sheet_limit(int k, int first)
 // A spring as the node at i has it, which it draws towards the one at j; nothing where `scale` is 0. It begins at `first`.
 KERNEL SpringShare sheet_spring(int k, int i, int j, real scale, int first)
 {
-    return spring_share(sheet_limit(k, first), load3(plane_q, j) - load3(plane_q, i), load3(plane_t, j) - load3(plane_t, i),
-                        sheet_rest(k), scale);
+    vec3 start = load3(plane_q, j) - load3(plane_q, i), moved = load3(plane_t, j) - load3(plane_t, i);
+    return spring_share(damped_between(sheet_limit(k, first), i, j), start, moved, damper_between(start, i, j), sheet_rest(k),
+                        scale);
 }
 KERNEL real counted_taut(SpringShare spring)
 {

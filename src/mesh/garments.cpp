@@ -181,16 +181,16 @@ SurfaceMesh tube_mesh(const TubeOptions& options)
         for (std::uint32_t k = 0; k < around; ++k) {
             // Minus: from +x towards -z, counter-clockwise seen from above.
             const double angle = -2 * std::numbers::pi * (k + 0.5 * (row % 2)) / around;
-            mesh.vertices.push_back(to_float({options.radius * std::cos(angle),
-                                              options.length * (0.5 - double(row) / (rows - 1)),
-                                              options.radius * std::sin(angle)}));
+            mesh.vertices.push_back(
+                to_float({options.radius * std::cos(angle), options.length * (0.5 - double(row) / (rows - 1)),
+                          options.radius * std::sin(angle)}));
         }
     const auto at = [&](std::uint32_t row, std::uint32_t k) { return row * around + k % around; };
     for (std::uint32_t row = 0; row + 1 < rows; ++row)
         for (std::uint32_t k = 0; k < around; ++k) {
             const bool above_is_ahead = row % 2 == 1;
-            for (const Triangle& half : halves_of({at(row, k), at(row + 1, k), at(row + 1, k + 1),
-                                                   at(row, k + 1), above_is_ahead}))
+            for (const Triangle& half :
+                 halves_of({at(row, k), at(row + 1, k), at(row + 1, k + 1), at(row, k + 1), above_is_ahead}))
                 mesh.triangles.push_back(half);
         }
     return mesh;

@@ -365,6 +365,7 @@ void fields(auto& at, Is<NewtonMultigridOptions> auto& solver)
     at.number("linear_tolerance", solver.linear_tolerance, fraction, "");
     at.number("step_cuts", solver.step_cuts, {0, 8}, "");
     at.number("smoothing", solver.smoothing, {1, 8}, "");
+    at.number("order", solver.order, {1, 2}, "");
     at.choice("preconditioner", solver.preconditioner, preconditioner_names);
     at.choice("enforcement", solver.enforcement, enforcement_names);
     at.choice("resists", solver.resists, resists_names);

@@ -20,6 +20,18 @@ struct Hand {
     {
         return mass + step_length * (damping + step_length * stiffness);
     }
+    /// The same in an implicit step of second order, which makes m' (1 + d s) of a mass m', for the air: what
+    /// the hand adds is no more in air. s: ClothModel::implicit_step.
+    double implicit_mass_in(double s, double air_damping) const { return mass + held(s, air_damping); }
+    GrabInput implicit_input(double s, double air_damping) const
+    {
+        const double inverse = 1 / implicit_mass_in(s, air_damping);
+        return {model, node, target, stiffness * s * inverse, held(s, air_damping) * inverse};
+    }
+    double held(double s, double air_damping) const
+    {
+        return s * (damping + s * stiffness) / (1 + air_damping * s);
+    }
     /// What the pass grab needs in a step of a cloth in air that takes `air_damping` (1/s) of velocities. The
     /// pull is given as velocity, of which the step then takes that part, so it is given that much more: else
     /// what hangs from the hand would seem to weigh more than it does.
@@ -37,9 +49,21 @@ inline bool set_mass(ClothModel& model, Hand& hand, double step_length)
 {
     if (hand.step == step_length) return false;
     hand.step = step_length;
-    const double mass = step_length > 0 ? hand.mass_in(step_length) : hand.mass;
+    const bool two = model.is_second_order();
+    const double mass =
+        step_length <= 0 ? hand.mass
+        : two            ? hand.implicit_mass_in(model.implicit_step(step_length), model.parameters.damping)
+                         : hand.mass_in(step_length);
     model.masses[hand.node] = mass;
     return true;
+}
+
+/// What the hand does in a step of its model.
+inline GrabInput grab_input(const ClothModel& model, const Hand& hand, double step_length)
+{
+    const double air = model.parameters.damping;
+    return model.is_second_order() ? hand.implicit_input(model.implicit_step(step_length), air)
+                                   : hand.input(step_length, air);
 }
 
 }  // namespace pliant

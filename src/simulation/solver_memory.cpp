@@ -20,6 +20,7 @@ std::vector<ArenaRange> solver_memory_ranges(const ClothModel& model)
                           static_cast<std::size_t>(count) * size};
     };
     std::vector<ArenaRange> kept = {planes(plane_touched, plane_firm + 1 - plane_touched)};
+    if (model.is_second_order()) kept.push_back(planes(hierarchy.history_plane, history_planes));
     if (model.is_sheet())
         kept.push_back(planes(plane_slip, 8));
     else

@@ -340,7 +340,7 @@ FrameInput Simulation::Implementation::input(double step) const
             colliders_rest,
             attached,
             goals,
-            hand && step > 0 ? hand->input(step, models[hand->model].parameters.damping) : GrabInput{}};
+            hand && step > 0 ? grab_input(models[hand->model], *hand, step) : GrabInput{}};
 }
 
 void Simulation::Implementation::hold(double step)

@@ -141,9 +141,11 @@ void ImplicitStep::add_spring(std::size_t spring_class, int i, int j, int betwee
             return part * (along * n * n.transpose() + across * (Block::Identity() - n * n.transpose()));
         });
     if (given.damping == 0) return;
-    // Along the direction that the spring had when the step began.
+    // Along the direction that the spring had when the step began, and of second order along the one that
+    // inertia alone takes it to.
     const double c = part * given.damping / input_.dt;
-    const Point n = before.normalized();
+    const Point then = is_second_order() ? Point(before + aim_of(j) - aim_of(i)) : before;
+    const Point n = then.normalized();
     add_pair(
         i, j, between, folds, [=](const Point& apart) { return c * std::pow(n.dot(apart), 2) / 2; },
         [=](const Point&) -> Block { return c * n * n.transpose(); });

@@ -39,6 +39,26 @@ ImplicitStep::ImplicitStep(StepInput input) : input_(std::move(input))
     if (!input_.colliders.empty()) add_contact();
 }
 
+StepInput ImplicitStep::second_order(StepInput input, const std::vector<Point>& way,
+                                     const std::vector<Point>& before)
+{
+    input.dt *= 2.0 / 3;
+    for (std::size_t i = 0; i < way.size(); ++i) {
+        input.position[i] += way[i] / 3;
+        input.mean_velocity.push_back((4 * input.velocity[i] - before[i]) / 3);
+    }
+    return input;
+}
+
+Point ImplicitStep::aim_of(int node) const
+{
+    const auto k = static_cast<std::size_t>(node);
+    const double dt = input_.dt, decay = std::max(0.0, 1 - input_.cloth.damping * dt);
+    if (input_.is_pinned[k]) return input_.destination[k] - at(node);
+    const Point pushed = is_second_order() ? input_.mean_velocity[k] : Point(decay * input_.velocity[k]);
+    return dt * (pushed + dt * point_of(input_.scene.gravity)) / air_weight();
+}
+
 void ImplicitStep::add_inertia(const std::vector<double>& masses)
 {
     const double dt = input_.dt;
@@ -46,15 +66,10 @@ void ImplicitStep::add_inertia(const std::vector<double>& masses)
     start_ = aim_ = Vector::Zero(size());
     for (int i = 0; i < size() / 3; ++i) {
         const auto k = static_cast<std::size_t>(i);
-        const Point v = input_.velocity[k], g = point_of(input_.scene.gravity);
-        const double decay = std::max(0.0, 1 - input_.cloth.damping * dt);
-        if (input_.is_pinned[k]) {
-            start_.segment<3>(3 * i) = aim_.segment<3>(3 * i) = input_.destination[k] - at(i);
-            continue;
-        }
-        start_.segment<3>(3 * i) = dt * v;
-        const Point y = aim_.segment<3>(3 * i) = dt * (decay * v + dt * g);
-        const double weight = masses[k] / (dt * dt);
+        const Point y = aim_.segment<3>(3 * i) = aim_of(i);
+        start_.segment<3>(3 * i) = input_.is_pinned[k] ? y : Point(dt * input_.velocity[k]);
+        if (input_.is_pinned[k]) continue;
+        const double weight = air_weight() * masses[k] / (dt * dt);
         Term term;
         term.kind = Kind::inertia;
         term.nodes = {i};

@@ -35,9 +35,11 @@ struct StepInput {
     Scene scene;                           ///< gravity, and the options of the solver
     std::vector<Point> rest = {};          ///< m: of a mesh, where its vertices were placed
     std::vector<Triangle> triangles = {};  ///< of a mesh
-    double dt = 0;                         ///< s
+    double dt = 0;                         ///< s, of a step of second order two thirds of it
     double softest = 0;  ///< N/m: what corrects limits that remember, before their compliance; 0: penalty
-    std::vector<Point> position = {}, velocity = {};  ///< m, m/s
+    std::vector<Point> position = {}, velocity = {};  ///< m, m/s; positions of second order are q
+    /// m/s: of second order, what a node without forces would end with; empty: the velocity
+    std::vector<Point> mean_velocity = {};
     std::vector<bool> is_pinned = {};
     std::vector<Point> destination = {};  ///< m: where a pinned node is at the end of the step
     std::vector<PlacedCollider> colliders = {};
@@ -59,6 +61,10 @@ struct Term {
 class ImplicitStep {
 public:
     explicit ImplicitStep(StepInput input);
+    /// A step of second order after one of the same length, in which nodes went `way` m and which they began
+    /// with the velocity `before`, m/s: of first order in other numbers.
+    static StepInput second_order(StepInput input, const std::vector<Point>& way,
+                                  const std::vector<Point>& before);
 
     int size() const { return static_cast<int>(3 * input_.position.size()); }
     bool is_free(int number) const { return !input_.is_pinned[static_cast<std::size_t>(number / 3)]; }
@@ -106,6 +112,10 @@ private:
     std::function<double(const Vector& moved)> depth_of(int node, std::size_t collider) const;
     /// m: the way of a collider's surface under a node
     Point carried(int node, const PlacedCollider& collider) const;
+    Point aim_of(int node) const;
+    /// What inertia weighs more for the air that takes of the velocity at the end, at second order.
+    double air_weight() const { return is_second_order() ? 1 + input_.cloth.damping * input_.dt : 1; }
+    bool is_second_order() const { return !input_.mean_velocity.empty(); }
     Point at(int node) const { return input_.position[static_cast<std::size_t>(node)]; }
     Matrix sum_of(const Vector& t, const std::function<Matrix(const Term&, const Vector&)>& matrix) const;
 

@@ -71,12 +71,20 @@ TEST(Stability, TheEstimateIsShortByWhatIsDerived)
     EXPECT_FALSE(stands(scene, 1.43 * estimate, 2000));
 }
 
-constexpr Integrator integrators[] = {Integrator::symplectic_euler, Integrator::explicit_euler,
-                                      Integrator::runge_kutta_4, Integrator::implicit_euler};
+struct Scheme {
+    Integrator integrator;
+    int order;
+    std::uint32_t implicit_order = 1;
+};
+constexpr Scheme schemes[] = {{Integrator::symplectic_euler, 1},
+                              {Integrator::explicit_euler, 1},
+                              {Integrator::runge_kutta_4, 4},
+                              {Integrator::implicit_euler, 1},
+                              {Integrator::implicit_euler, 2, 2}};
 
 /// Where a mass between two springs is after 0.5 s. It starts across them as well as along, so that what they
 /// do is not linear; near the origin, a float tells it to 1e-9 m.
-Vec3d place_after(Integrator integrator, std::uint32_t substeps)
+Vec3d place_after(const Scheme& scheme, std::uint32_t substeps)
 {
     SurfaceMesh mesh{{{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}}, {{0, 1, 2}}};
     Cloth cloth = Cloth::mesh(mesh, {.node_mass = 0.125});
@@ -85,7 +93,8 @@ Vec3d place_after(Integrator integrator, std::uint32_t substeps)
     cloth.velocity = {0.5, 3, 0};
     cloth.pin(1u).pin(2u);
     Scene scene;
-    scene.integrator = integrator;
+    scene.integrator = scheme.integrator;
+    scene.newton_multigrid.order = scheme.implicit_order;
     scene.time = {.duration = 1, .frame_rate = 20, .substeps = substeps};
     scene.newton_multigrid.newton_iterations = 50;
     scene.newton_multigrid.newton_tolerance = 1e-8;
@@ -99,22 +108,25 @@ Vec3d place_after(Integrator integrator, std::uint32_t substeps)
 
 TEST(Order, OfPositionsIsThatOfTheIntegrator)
 {
-    // Row "order": the slope of the position's error over dt, 1 for the Euler family and 4 for Runge-Kutta,
+    // Row "order": the slope of the position's error over dt, 1 for the Euler family, 2 for BDF2 and 4 for
+    // Runge-Kutta,
     // +- 0.1, over four refinements against the limit, which is Runge-Kutta's with a step 18 times finer than
     // its finest here.
-    const Vec3d limit = place_after(Integrator::runge_kutta_4, 256);
-    for (const Integrator integrator : integrators) {
-        const bool fourth = integrator == Integrator::runge_kutta_4;
-        const bool implicit = integrator == Integrator::implicit_euler;
+    const Vec3d limit = place_after({Integrator::runge_kutta_4, 4}, 256);
+    for (const Scheme& scheme : schemes) {
+        const bool fourth = scheme.order == 4;
+        const bool implicit = scheme.integrator == Integrator::implicit_euler;
         double before = 0, substeps_before = 0;
         for (const std::uint32_t n : {6u, 8u, 12u, 18u, 28u}) {
             const std::uint32_t substeps = fourth ? n / 2 : implicit ? 8 * n : 32 * n;
-            const Vec3d d = place_after(integrator, substeps) - limit;
+            const Vec3d d = place_after(scheme, substeps) - limit;
             const double error = std::sqrt(dot(d, d));
             if (substeps_before > 0) {
                 const double slope = std::log(before / error) / std::log(substeps / substeps_before);
-                test::measured(std::string("order of ") + name_of(integrator), slope, fourth ? 4 : 1);
-                EXPECT_NEAR(slope, fourth ? 4 : 1, 0.1) << name_of(integrator) << ", error " << error;
+                const std::string name = std::string(name_of(scheme.integrator)) +
+                                         (scheme.implicit_order == 2 ? " of order 2" : "");
+                test::measured("order of " + name, slope, scheme.order);
+                EXPECT_NEAR(slope, scheme.order, 0.1) << name << ", error " << error;
             }
             before = error;
             substeps_before = substeps;

@@ -117,6 +117,28 @@ KERNEL void find_lengths(SpringGroup& group, int first, int last) const
         Lanes<T>::store(group.inverse_length + k, inverse_sqrt(Lanes<T>::load(group.length2 + k)));
 }
 
+/// damped_between and damper_between for the nodes of each spring. Found lane by lane, as few ask for it.
+KERNEL void damp_lanes(int e, vec3 start, LimitCurve& curve, vec3& damper) const
+{
+    Number ahead[3 * Lanes<T>::count], known[Lanes<T>::count];
+    for (int lane = 0; lane < Lanes<T>::count; ++lane) {
+        const int i = level_offset(0, lanes().first_end[e + lane] / MeshLanes::state_size),
+                  j = level_offset(0, lanes().second_end[e + lane] / MeshLanes::state_size);
+        for (int k = 0; k < 3; ++k)
+            ahead[k * Lanes<T>::count + lane] = *at(plane_y + k, j) - *at(plane_y + k, i);
+        known[lane] = Number(knows_step(i) && knows_step(j) ? 1 : 0);
+    }
+    damper = start + three<&Lanes<T>::load>(ahead, Lanes<T>::count);
+    curve.damping =
+        choose(Lanes<T>::load(known) > 0.0f, curve.damping, curve.damping - curve.damping * third());
+}
+/// knows_before, of one node.
+bool knows_step(int o) const
+{
+    const Number h = constants.dt, off = *at(history_plane() + history_step, o) - h;
+    return h * Number(1e-3f) > (off < Number(0) ? -off : off);
+}
+
 /// Classes are mixed: the state by each is computed for all lanes.
 KERNEL void springs_lanes(const SpringGroup& group, int first, int e)
 {
@@ -134,7 +156,9 @@ KERNEL void springs_lanes(const SpringGroup& group, int first, int e)
         state = chosen(is_next, spring_state(next, length2, inverse_length, rest), state);
         curve.damping = choose(is_next, next.damping, curve.damping);
     }
-    SpringShare spring = share_of(state, curve.damping, start, d, inverse_length, mesh_scale(e));
+    vec3 damper = start;
+    if (is_second_order() && has_damping()) damp_lanes(e, start, curve, damper);
+    SpringShare spring = share_of(state, curve.damping, start, d, damper, inverse_length, mesh_scale(e));
     spring = with_bending(e, spring, d);
     Record::store_fours(edge_at(edge_force, 4, e),
                         {spring.force.x, spring.force.y, spring.force.z, mesh_taut(spring)}, count);

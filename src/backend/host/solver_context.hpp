@@ -19,6 +19,9 @@ struct SolverConstants {
         Number below{}, limit{}, beyond{}, compressed{}, damping{};
     };
     Number dt{}, inverse_dt{}, decay{}, thickness{};
+    // Steps of second order: see newton.kernel.glsl. 0: they are of first order.
+    int history_plane = 0;
+    Number short_dt{}, inverse_short_dt{}, third{}, air{};  ///< s, 1/s, 1/3, 1/s
     Vector3<Number> gravity{};
     Curve curves[3]{};  ///< by class
     bool has[3]{};      ///< classes that are not off

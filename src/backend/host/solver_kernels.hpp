@@ -202,6 +202,12 @@ struct SolverKernels {
     real decay() const { return spread(constants.decay); }
     real step_length() const { return spread(constants.dt); }
     real inverse_step() const { return spread(constants.inverse_dt); }
+    bool is_second_order() const { return constants.history_plane > 0; }
+    int history_plane() const { return constants.history_plane; }
+    real short_step() const { return spread(constants.short_dt); }
+    real inverse_short_step() const { return spread(constants.inverse_short_dt); }
+    real third() const { return spread(constants.third); }
+    real air() const { return spread(constants.air); }
     vec3 gravity() const { return spread(constants.gravity); }
     bool hand_is_near(int o) const { return constants.held >= o && constants.held < o + Lanes<T>::count; }
     vec3 where_held(int o, vec3 held, vec3 otherwise) const

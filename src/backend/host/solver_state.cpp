@@ -21,15 +21,26 @@ SolverConstants<T> make_solver_constants(const ClothModel& model, double step_le
     c.inverse_dt = number(step_length > 0 ? 1 / step_length : 0);
     c.decay = step.decay;
     c.thickness = step.thickness;
+    if (model.is_second_order()) {
+        const double part = model.implicit_step(step_length);
+        c.history_plane = model.hierarchy.history_plane;
+        c.short_dt = number(part);
+        c.inverse_short_dt = number(part > 0 ? 1 / part : 0);
+        c.third = number(1.0 / 3);
+        c.air = number(model.parameters.damping);
+    }
     c.gravity = step.gravity;
     for (std::size_t k = 0; k < spring_class_count; ++k) {
         const LimitedSprings& springs = model.limited[k];
         const double damping = springs.exists ? model.parameters.spring_damping[k] : 0;
         c.has[k] = springs.exists;
         c.has_damping |= damping > 0;
-        c.curves[k] = {springs.curve_kind(),       number(springs.below),
-                       number(springs.limit),      number(springs.beyond),
-                       number(springs.compressed), number(step_length > 0 ? damping / step_length : 0)};
+        c.curves[k] = {springs.curve_kind(),
+                       number(springs.below),
+                       number(springs.limit),
+                       number(springs.beyond),
+                       number(springs.compressed),
+                       number(step_length > 0 ? damping / model.implicit_step(step_length) : 0)};
     }
     if (grab.hold > 0 && !model.hierarchy.empty()) {
         const auto columns = static_cast<std::uint32_t>(model.hierarchy.levels.front().columns);

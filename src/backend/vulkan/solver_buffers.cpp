@@ -35,11 +35,11 @@ struct SolverBlock {
     float relaxations[SolverConstants<float>::most_relaxations]{};
     float tolerances[4]{};
     float softest[4]{}, compliance[4]{};
-    Float4 acad_above_below, acad_near;
+    Float4 acad_above_below, acad_near, second_order;
     std::uint32_t has_damping = 0, exact_bend = 0, is_graded = 0, contact_is_by_mass = 0;
     std::uint32_t has[4]{}, remembers[4]{};
     std::int32_t curve_kinds[4]{};
-    std::int32_t bottom_base = 0, part_stride = 0, padding[2]{};
+    std::int32_t bottom_base = 0, part_stride = 0, history_plane = 0, padding = 0;
     std::int32_t part_counts[most_slots]{};
     std::int32_t levels[most_levels][level_numbers]{};
 };
@@ -163,6 +163,8 @@ void SolverBuffers::set_constants(double step_length)
     block.acad_above_below = {c.acad_above2, c.acad_below2, c.acad_held_above2, c.acad_held_below2};
     block.acad_near = {c.acad_near_above2, c.acad_near_below2, c.is_acad ? 1.0f : 0.0f,
                        c.acad_has_memory ? 1.0f : 0.0f};
+    block.second_order = {c.short_dt, c.inverse_short_dt, c.third, c.air};
+    block.history_plane = c.history_plane;
     block.has_damping = c.has_damping ? 1 : 0;
     block.exact_bend = c.exact_bend ? 1 : 0;
     block.is_graded = c.is_graded ? 1 : 0;

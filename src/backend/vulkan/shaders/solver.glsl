@@ -29,11 +29,12 @@ layout(set = 0, binding = 18, std140) uniform Solver
     vec4 compliance;         // m/N, by class; w: N/m, the stiffest limit, without its compliance
     vec4 acad_above_below;   // by length squared over rest length squared; z, w: of those held
     vec4 acad_near;          // above, below; z: is it ACAD, w: does it remember
+    vec4 second_order;       // s, of BDF2; 1/s; a third; 1/s, what air takes
     bool has_damping, exact_bend, is_graded, contact_is_by_mass;
     bvec4 has;               // classes of springs
     bvec4 remembers;         // by class; w: any
     ivec4 curve_kinds;       // by class
-    int bottom_base, part_stride, padding_0, padding_1;
+    int bottom_base, part_stride, history_plane, padding;
     ivec4 part_counts[4];    // by slot
     ivec4 levels[32 * 6];    // the numbers of SolverLevel, 24 for each
 } solver;
@@ -150,6 +151,12 @@ real thickness() { return parameters.drag_lift_thickness.z; }
 real decay() { return parameters.gravity_direction.w; }
 real step_length() { return solver.step_contact.x; }
 real inverse_step() { return solver.step_contact.y; }
+bool is_second_order() { return solver.history_plane > 0; }
+int history_plane() { return solver.history_plane; }
+real short_step() { return solver.second_order.x; }
+real inverse_short_step() { return solver.second_order.y; }
+real third() { return solver.second_order.z; }
+real air() { return solver.second_order.w; }
 vec3 gravity() { return parameters.gravity_dt.xyz; }
 vec3 hand_target() { return parameters.grab_target.xyz; }
 real hand_pull() { return parameters.grab_target.w; }
