@@ -201,8 +201,9 @@ void Simulation::Implementation::run_program(const Program& program, std::uint32
 Kept Simulation::Implementation::kept(std::uint32_t model, std::uint32_t steps,
                                       std::uint32_t from_parity) const
 {
-    // One step leaves the state that it starts from where it is.
-    return {model, from_parity, steps > 1, solver_memory_ranges(models[model])};
+    // One step leaves the state that it starts from where it is; its three parts do not.
+    const bool may_overwrite = steps > 1 || models[model].newton.step_cuts > 1;
+    return {model, from_parity, may_overwrite, solver_memory_ranges(models[model])};
 }
 
 void Simulation::Implementation::fit_memory(std::uint32_t model, double step)
