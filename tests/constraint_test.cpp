@@ -38,15 +38,6 @@ Scene strip(std::uint32_t rows, double length, double mass)
     return scene;
 }
 
-/// Solved as far as its numbers go.
-void converge(Scene& scene)
-{
-    scene.newton_multigrid.newton_iterations = 60;
-    scene.newton_multigrid.newton_tolerance = 1e-7;
-    scene.newton_multigrid.linear_iterations = 60;
-    scene.newton_multigrid.linear_tolerance = 1e-4;
-}
-
 Scene hanging_sheet(std::uint32_t n)
 {
     Scene scene;
@@ -84,7 +75,7 @@ TEST(Constraint, PendulumKeepsItsLengthToTheCompliance)
     // A bar of one link, held at its upper end, released from the horizontal. At the bottom the two links
     // carry 3 m g between them at most, so that each is longer by at most 1.5 m g times the compliance.
     Scene scene = strip(2, 1.0, 2.0);
-    converge(scene);
+    test::converge(scene);
     // A force that is remembered is a step behind.
     scene.newton_multigrid.enforcement = Enforcement::penalty;
     scene.cloth_handle(0).pin(std::uint32_t{0}).pin(std::uint32_t{1});
@@ -106,7 +97,7 @@ TEST(Constraint, PendulumHasThePeriodOfItsLength)
     // Small swings of a bar whose mass is at its end: T = 2 pi sqrt(L / g) (1 + a^2 / 16). Implicit Euler is
     // of first order in damping and of second in frequency: at 240 steps a second (omega dt)^2 < 2e-4.
     Scene scene = strip(2, 1.0, 1.0);
-    converge(scene);
+    test::converge(scene);
     scene.time.substeps = 4;
     const double angle = 0.1;  // rad from the vertical
     scene.cloth_handle(0)->rotation = {90 - angle * 180 / std::numbers::pi, 0, 0};
@@ -133,7 +124,7 @@ TEST(Constraint, ImplicitStepDampsASwingAsItsTheorySays)
     // rate of omega^2 dt / 2 up to (omega dt)^2 = 5e-3 of itself. Angles of 0.1 rad change omega^2 by 1e-3 of
     // itself.
     Scene scene = strip(2, 1.0, 1.0);
-    converge(scene);
+    test::converge(scene);
     const double angle = 0.1, omega2 = g;  // rad from the vertical; 1/s2, of a length of 1 m
     scene.cloth_handle(0)->rotation = {90 - angle * 180 / std::numbers::pi, 0, 0};
     scene.cloth_handle(0).pin(std::uint32_t{0}).pin(std::uint32_t{1});
@@ -157,7 +148,7 @@ TEST(Constraint, MultipliersOfAHangingStripAreTheWeightBelow)
 {
     constexpr std::uint32_t rows = 9;
     Scene scene = strip(rows, 1.0, 1.8);
-    converge(scene);
+    test::converge(scene);
     scene.cloth_handle(0)->rotation = {90, 0, 0};  // down
     scene.cloth_handle(0)->damping = 5;
     scene.cloth_handle(0).pin(Edge::top);
@@ -184,7 +175,7 @@ TEST(Constraint, HangingChainTakesTheCatenary)
     for (int k = 0; k < 2; ++k) {
         const std::uint32_t rows = links[k] + 1;
         Scene scene = strip(rows, 1.2, 1.2);
-        converge(scene);
+        test::converge(scene);
         scene.newton_multigrid.newton_iterations = 30;
         auto cloth = scene.cloth_handle(0);
         cloth->damping = 4;
@@ -213,7 +204,7 @@ TEST(Constraint, MomentumGrowsByTheWeightAlone)
         1e-4;
     scene.newton_multigrid.resists =
         Resists::both;  // steps of slack threads are hardly ever solved to the end
-    converge(scene);
+    test::converge(scene);
     Simulation simulation(scene, test::on(Backend::reference));
     // Every node its own way, so that constraints work against each other.
     State state = simulation.state();
@@ -248,7 +239,7 @@ TEST(Constraint, WhatCannotBeSatisfiedEndsInTheLeastStretch)
 {
     // Pins 20 % further apart than the strip is long: every link shares it.
     Scene scene = strip(11, 1.0, 0.5);
-    converge(scene);
+    test::converge(scene);
     auto cloth = scene.cloth_handle(0);
     cloth->damping = 2;
     cloth.pin(Edge::top).pin(Attachment(Edge::bottom, {{.time = 0}, {.time = 0.5, .position = {0, 0, 0.2}}}));

@@ -58,15 +58,6 @@ Scene sheet(std::uint32_t n, std::uint32_t order)
     return scene;
 }
 
-/// Solved as far as its numbers go.
-void converge(Scene& scene)
-{
-    scene.newton_multigrid.newton_iterations = 60;
-    scene.newton_multigrid.newton_tolerance = 1e-7;
-    scene.newton_multigrid.linear_iterations = 60;
-    scene.newton_multigrid.linear_tolerance = 1e-4;
-}
-
 double energy_of(const Simulation& simulation)
 {
     const FrameMeasures& m = simulation.report().measures;
@@ -112,7 +103,7 @@ TEST(SecondOrder, ASwingIsDampedAsItsTheorySays)
     // Of BDF2 a swing of angular frequency w loses its amplitude at the rate w^4 dt^3 / 4, up to (w dt)^2 of
     // itself: at 20 steps a second 3.0e-3 1/s, up to 3 %. Implicit Euler: 0.25.
     Scene scene = strip(2, 0.1, 2);
-    converge(scene);
+    test::converge(scene);
     scene.time.frame_rate = 20;
     Simulation simulation(scene, test::on(Backend::reference));
     const double x0 = simulation.positions()[0].z;
@@ -141,7 +132,7 @@ TEST(SecondOrder, ASwingIsDampedAsItsTheorySays)
 double angle_after(std::uint32_t order, std::uint32_t substeps)
 {
     Scene scene = strip(2, 1, order);
-    converge(scene);
+    test::converge(scene);
     scene.cloth_handle(0)->springs.structural.compliance = 1e-8;
     scene.time.substeps = substeps;
     Simulation simulation(scene, test::on(Backend::reference));
@@ -184,7 +175,7 @@ TEST(SecondOrder, AirTakesWhatItTakesToSecondOrder)
 {
     for (const std::uint32_t substeps : {1u, 2u}) {
         Scene scene = strip(6, 0, 2);
-        converge(scene);
+        test::converge(scene);
         scene.gravity = {};
         scene.time.substeps = substeps;
         scene.cloth_handle(0)->pins.clear();
@@ -235,7 +226,7 @@ TEST(SecondOrder, AStateWithoutMemoryGoesOnByEuler)
         Scene scene = swinging(mesh), first = swinging(mesh);
         for (Scene* each : {&scene, &first}) {  // by penalty, nothing else is remembered
             each->newton_multigrid.enforcement = Enforcement::penalty;
-            converge(*each);
+            test::converge(*each);
         }
         first.newton_multigrid.order = 1;
         Simulation bdf2(scene, test::on(Backend::reference)), euler(first, test::on(Backend::reference));

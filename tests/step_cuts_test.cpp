@@ -97,6 +97,32 @@ TEST_P(StepCuts, AreTheShorterStepsThatOneCouldHaveAskedFor)
     }
 }
 
+// The parts of a first cut overwrite the state that a frame of one step begins with.
+TEST_P(StepCuts, TwiceBeginWhereTheFrameBegan)
+{
+    if (GetParam() == Backend::reference) GTEST_SKIP() << "states are in float, and it steps in double";
+    const auto scene_of = [](std::uint32_t substeps, std::uint32_t cuts) {
+        Scene scene = hardly_solved(substeps, cuts);
+        scene.cloth_handle(1)->position = {0, 0.8, 0};  // so that it is fast when it meets the ball
+        return scene;
+    };
+    Simulation cut(scene_of(1, 2), test::on(GetParam()));
+    State before;
+    std::uint64_t added = 0;
+    while (added != 8 && cut.report().frames < 120) {
+        before = cut.state();
+        const std::uint64_t so_far = cut.report().solver.steps_added;
+        cut.advance(frame);
+        added = cut.report().solver.steps_added - so_far;
+    }
+    ASSERT_EQ(added, 8u) << "no frame in which one cloth was cut in nine";
+    Simulation shorter(scene_of(9, 0), test::on(GetParam()));
+    shorter.set_state(before);
+    shorter.advance(frame);
+    const State a = cut.state(), b = shorter.state();
+    EXPECT_EQ(are_equal(a, b, 0, 0) + are_equal(a, b, 1, 0), 1);
+}
+
 TEST_P(StepCuts, AreNotTakenWhereStepsAreSolved)
 {
     Scene scene = hardly_solved(1, 2);

@@ -16,6 +16,15 @@ inline Cloth flat_sheet(std::uint32_t rows, std::uint32_t columns, double width 
     return cloth;
 }
 
+/// Implicit steps are solved as far as their numbers go.
+inline void converge(Scene& scene)
+{
+    scene.newton_multigrid.newton_iterations = 60;
+    scene.newton_multigrid.newton_tolerance = 1e-7;
+    scene.newton_multigrid.linear_iterations = 60;
+    scene.newton_multigrid.linear_tolerance = 1e-4;
+}
+
 /// Two triangles for each cell of a patch: name(row, column) is the vertex there, and rises(row, column)
 /// whether the diagonal leads from the next column to the next row.
 template <class Name, class Choice>

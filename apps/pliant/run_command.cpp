@@ -273,7 +273,7 @@ private:
                          "further than it reaches, or faster than a step can follow\n",
                          100 * summary_.max_stretch_peak());
         if (solver.frames_cut > 0 && !options_.quiet)
-            std::printf("%llu frames were taken anew in shorter steps, %llu more in all\n",
+            std::printf("%llu frames were taken again in shorter steps: %llu steps more in all\n",
                         static_cast<unsigned long long>(solver.frames_cut),
                         static_cast<unsigned long long>(solver.steps_added));
     }

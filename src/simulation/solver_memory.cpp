@@ -72,17 +72,22 @@ void fit_solver_memory(PassRunner& runner, const ClothModel& model, std::uint32_
         if (model.is_sheet())
             return k / static_cast<std::size_t>(cloth.size) % 2 == 0 ? SpringClass::structural
                                                                      : SpringClass::shear;
-        const std::size_t edge = std::min(k, static_cast<std::size_t>(cloth.edges) - 1);
         return static_cast<SpringClass>(
-            model.hierarchy.topology[static_cast<std::size_t>(cloth.edge_ends) + 3 * edge + 2]);
+            model.hierarchy.topology[static_cast<std::size_t>(cloth.edge_ends) + 3 * k + 2]);
     };
+    struct Softest {
+        double from = 0, to = 0;  // N/m
+    } softest[spring_class_count];
+    for (std::size_t c = 0; c < spring_class_count; ++c) {
+        const auto of = static_cast<SpringClass>(c);
+        if (model.remembers(of)) softest[c] = {model.softest_limit(of, from), model.softest_limit(of, to)};
+    }
     for (std::size_t k = 0; k < slips.size(); ++k) {
-        const SpringClass of = class_of(k);
-        if (!model.remembers(of)) continue;
-        const auto stiffness = [&](double step) {
-            return std::max(double{stiffnesses[k]}, model.softest_limit(of, step));
-        };
-        slips[k] = static_cast<float>(slips[k] * stiffness(from) / stiffness(to));
+        const double stiffness{stiffnesses[k]};
+        if (!(stiffness > 0)) continue;  // new, or none
+        const Softest& least = softest[static_cast<std::size_t>(class_of(k))];
+        slips[k] =
+            static_cast<float>(slips[k] * std::max(stiffness, least.from) / std::max(stiffness, least.to));
     }
     runner.write_solver_numbers(index, limits.first, slips);
 }

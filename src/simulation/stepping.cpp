@@ -122,8 +122,8 @@ void Simulation::Implementation::measure()
 std::pair<std::uint64_t, double> Simulation::Implementation::steps_of(double duration) const
 {
     constexpr double rounding = 1e-9;
-    // Limits that remember are made right from step to step. In steps of a second they are stable, and wrong:
-    // whoever asks for one has several. (Springs alone find their rest by such steps.)
+    // Limits that remember are made right from step to step. In long steps they are stable but wrong, so such
+    // steps are divided. Springs without limits may take long steps: a scene finds its rest by them.
     constexpr double longest = 1 / 20.0;
     const bool remembers =
         std::any_of(models.begin(), models.end(), [](const ClothModel& m) { return m.remembers_any(); });
@@ -180,8 +180,9 @@ void Simulation::Implementation::run_steps(std::uint32_t steps, double step)
     for (std::uint32_t m = 0; m < models.size(); ++m) fit_memory(m, step);
     memory_step = step;
     const Program& program = frame_program(steps);
-    const std::uint32_t from_parity = std::exchange(parity, program.parity_after);
+    const std::uint32_t from_parity = parity;
     run_program(program, steps, step);
+    parity = program.parity_after;
     for (std::uint32_t m = 0; m < models.size(); ++m)
         if (is_implicit(models[m])) cut_steps(m, steps, step, from_parity);
     report.simulated_seconds = on_frame(report.simulated_seconds + steps * step, steps * step);
@@ -283,7 +284,8 @@ const Program& Simulation::Implementation::frame_program(std::uint32_t steps, st
         Program program{next_program_id++, {}, 0};
         program.parity_after = append_frame(models, steps, from_parity, program.calls, grabbed, only);
         for (std::uint32_t m = 0; only == no_cloth && m < models.size(); ++m)
-            if (is_implicit(models[m])) program.keeps.push_back(kept(m, steps, from_parity));
+            if (is_implicit(models[m]) && models[m].newton.step_cuts > 0)
+                program.keeps.push_back(kept(m, steps, from_parity));
         found = programs.emplace(key, std::move(program)).first;
     }
     return found->second;

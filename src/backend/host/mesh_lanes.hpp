@@ -41,24 +41,7 @@ struct MeshLanes {
     const std::int32_t* source_edges = nullptr;
 };
 
-/// Passes of meshes that packs run.
-constexpr bool has_lanes(Pass pass)
-{
-    switch (pass) {
-        case Pass::mesh_springs:
-        case Pass::mesh_gather:
-        case Pass::mesh_coarsen_couplings:
-        case Pass::mesh_coarsen_nodes:
-        case Pass::mesh_apply:
-        case Pass::mesh_smooth:
-        case Pass::mesh_residual:
-        case Pass::mesh_restrict:
-        case Pass::mesh_multiply:
-        case Pass::mesh_prolong: return true;
-        default: return false;
-    }
-}
-/// Those that find their neighbours in records, which must be made before.
+/// Passes of meshes that find their neighbours in records, which must be made before.
 constexpr bool asks_for_records(Pass pass)
 {
     switch (pass) {
@@ -71,6 +54,12 @@ constexpr bool asks_for_records(Pass pass)
         case Pass::mesh_prolong: return true;
         default: return false;
     }
+}
+/// Passes of meshes that packs run.
+constexpr bool has_lanes(Pass pass)
+{
+    return asks_for_records(pass) || pass == Pass::mesh_gather || pass == Pass::mesh_coarsen_couplings ||
+           pass == Pass::mesh_coarsen_nodes;
 }
 
 }  // namespace pliant
