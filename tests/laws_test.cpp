@@ -119,12 +119,12 @@ TEST(Spring, BendingIsASpringOfNoLength)
 // --- springs with limits ---
 
 const D::LimitCurve limit_curves[] = {
-    {0, 50, 0.02, 4000, 4000, 0, 0},      // a stiffness below the limit, resisting both ways beyond it
-    {0, 0, 0.01, 4000, 0, 0, 0},          // tension alone
-    {1, 70, 0, 0, 0, 0, 0},               // a plain spring
-    {2, 0, 0, 4000, 0, 0, 0},             // a thread that does not give
-    {0, 50, 0.02, 4000, 4000, 0, 0.004},  // those that remember a force
-    {2, 0, 0, 4000, 0, 0, 0.004},
+    {0, 50, 0.02, 4000, 4000, 0, 0, 0.02},      // a stiffness below the limit, resisting both ways beyond it
+    {0, 0, 0.01, 4000, 0, 0, 0, -1},          // tension alone
+    {1, 70, 0, 0, 0, 0, 0, 0},               // a plain spring
+    {2, 0, 0, 4000, 0, 0, 0, -1},             // a thread that does not give
+    {0, 50, 0.02, 4000, 4000, 0, 0.004, 0.02},  // those that remember a force
+    {2, 0, 0, 4000, 0, 0, 0.004, -1},
 };
 
 TEST(Limit, ForceIsTheSlopeOfTheEnergyAndMultiplierWhatTheLimitAdds)
@@ -165,7 +165,7 @@ TEST(Limit, ThatRemembersItsForceHasItsCompliance)
 {
     // A weight hangs on a thread, and every step ends where the force of the limit is the weight.
     constexpr double rest = 0.5, weight = 3, softest = 100, stiffest = 2000, compliance = 1e-4;
-    D::LimitCurve curve{2, 0, 0, softest / (1 + softest * compliance), 0, 0, 0};
+    D::LimitCurve curve{2, 0, 0, softest / (1 + softest * compliance), 0, 0, 0, -1};
     double length = 0;
     for (int step = 0; step < 40; ++step) {
         length = rest + weight / curve.beyond - curve.slip;

@@ -15,10 +15,12 @@ KERNEL mask is_overstretched(real length2, real rest, mask held)
 // Near enough to the threshold that this step may take it there.
 KERNEL mask is_near_threshold(real length2, real rest, mask held)
 {
-    real rest2 = rest * rest;
-    real above = choose(held, acad_held_above2(), acad_near_above2());
-    real below = choose(held, acad_held_below2(), acad_near_below2());
-    return length2 > choose(length2 < below * rest2, real(-1.0f), above * rest2);
+    real rest2 = rest * rest, reach = scalar(scalar_reach);
+    real above = acad_near_above2() * rest2, below = acad_near_below2() * rest2;
+    real above_by_reach = acad_above2() * rest2 - reach, below_by_reach = acad_below2() * rest2 + reach;
+    above = choose(held, acad_held_above2() * rest2, choose(above > above_by_reach, above_by_reach, above));
+    if (acad_has_compression()) below = choose(held, acad_held_below2() * rest2, largest(below, below_by_reach));
+    return length2 > choose(length2 < below, real(-1.0f), above);
 }
 
 // How far it is beyond the threshold, by length squared, m2: the whole cost of being ready.
@@ -34,6 +36,11 @@ KERNEL real counted_over(int k, int o, real length2)
     mask over = acad_has_memory() ? is_overstretched(length2, sheet_rest(k), load(plane_mark + k, o) > 0.0f)
                                   : excess(length2, sheet_rest(k) * sheet_rest(k)) > 0.0f;
     return choose(over, load(plane_scale + k, o), real(0.0f));
+}
+KERNEL real squared_excess(real length2, real rest)
+{
+    real over = largest(excess(length2, rest * rest), real(0.0f));
+    return over * over;
 }
 
 // Whether a step asks for a spring at all. A bend spring of a sheet is no longer than the two structural ones on its line,
@@ -51,6 +58,7 @@ KERNEL void sheet_limits(int o)
         if (!is_tested(k)) continue;
         vec3 d = node_next_position(o + forward_offset(k)) - x;
         sums[0] = sums[0] + counted_over(k, o, dot3(d, d));
+        sums[1] = sums[1] + load(plane_scale + k, o) * squared_excess(dot3(d, d), sheet_rest(k));
     }
 }
 

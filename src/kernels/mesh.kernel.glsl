@@ -252,6 +252,7 @@ KERNEL void mesh_limits(int o)
             mask held = edge_load(edge_mark, e) > real(acad_has_memory() ? 0.0f : 2.0f);
             mask over = is_overstretched(dot3(d, d), edge_load(edge_rest, e), held);
             sums[0] = sums[0] + choose(over, real(1.0f), real(0.0f));
+            sums[1] = sums[1] + squared_excess(dot3(d, d), edge_load(edge_rest, e));
         }
     }
 }

@@ -95,7 +95,8 @@ const int scalar_first_residual2 = 29; // N2: r . r of the last linear system, a
 const int scalar_residual2 = 30;
 const int scalar_contact_energy = 31; // J, accepted
 const int scalar_refused = 32;      // line searches that ended with no step
-const int scalar_count = 33;
+const int scalar_reach = 33;        // m2: how far this step's correction may take a spring of ACAD, by length squared
+const int scalar_count = 34;
 
 // Sums over nodes or springs that passes leave in parts.
 const int sum_spring_energy = 0;    // J, of springs
@@ -110,6 +111,7 @@ const int sum_contact_change = 7;   // J, before that
 const int sum_active = 8;           // constraints
 const int sum_marked = 9;           // springs that ACAD has marked
 const int sum_renewed = 9;          // J: what limits are changed by that remember
+const int sum_excess = 9;           // m4, before marks: of springs beyond ACAD's threshold
 const int sum_slots = 10;
 const int sum_columns = 64;         // that one part of a sum is of
 

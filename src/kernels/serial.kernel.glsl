@@ -7,10 +7,13 @@ KERNEL void solve_reset()
     for (int k = scalar_solves; k < scalar_count; ++k) set_scalar(k, real(0.0f));
 }
 
-// ACAD: a step that stretches no spring too far has nothing to solve.
+// ACAD: a step that stretches no spring too far has nothing to solve. One that does moves nodes by about as much as
+// springs are too long, and may so stretch others too far: those within that reach are marked, too.
 KERNEL void acad_check()
 {
     set_scalar(scalar_idle, real(total(sum_active) > 0.0f ? 0.0f : 1.0f));
+    real excess2 = total(sum_excess);
+    set_scalar(scalar_reach, acad_reach() * (excess2 * inverse_sqrt(excess2)));
 }
 
 // The energies of a look are those that the line search goes by.
@@ -90,7 +93,9 @@ KERNEL void search_begin()
     set_scalar(scalar_step, real(1.0f));
 }
 
-// Armijo's rule, with room for the rounding of the sums. The last try is no step at all, and is taken. Either the whole
+// Armijo's rule, with room for the rounding of the sums. A step that is refused is shortened to 1/4, and then by its own
+// square: a spring that is about to reach its limit can take a thousandth of a step that knows of no limit. The last try is
+// no step at all, and is taken. Either the whole
 // energy must fall or that without contact: a node that meets a collider within an iteration does not hold up the cloth,
 // for the next one sets it right.
 KERNEL void search_check()
@@ -105,7 +110,8 @@ KERNEL void search_check()
         set_scalar(scalar_energy, energy);
         set_scalar(scalar_contact_energy, contact);
     } else {
-        set_scalar(scalar_step, step > 0.01f ? step * real(0.25f) : real(0.0f));
+        real shorter = step < 1.0f ? step * step : real(0.25f);
+        set_scalar(scalar_step, step > 1e-3f ? shorter : real(0.0f));
     }
 }
 

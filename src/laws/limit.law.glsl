@@ -15,6 +15,7 @@ struct LimitCurve
     real compressed;  // K', N/m
     real damping;     // c / dt, N/m: resists the change of length during the step
     real slip;        // m: the limit acts as if the spring were this much longer, see renewed_limit
+    real reach;       // the stretch from which on K is in the Hessian; -1: always
 };
 
 // What a spring does at its length: on node i the force is `force` n, n = (x_j - x_i) / l.
@@ -27,9 +28,9 @@ struct SpringState
     real multiplier;  // N, what the limit adds to the force of the stiffness below it
 };
 
-// The Hessian is the one that Newton's method wants, not the exact one: a slack spring keeps its stiffness K along n,
+// The Hessian is the one that Newton's method wants, not the exact one: a slack thread keeps its stiffness K along n,
 // so that it is taut before it is overstretched, and the stiffness across n, f / l, is never negative. A spring that has
-// a stiffness below its limit to go by keeps K from half of the limit on.
+// a stiffness below its limit has K from its limit on alone: k has to be free to shorten it.
 LAW SpringState limited_spring(LimitCurve curve, real length2, real inverse_length, real rest_length)
 {
     real extension = length2 * inverse_length - rest_length;
@@ -39,8 +40,8 @@ LAW SpringState limited_spring(LimitCurve curve, real length2, real inverse_leng
     SpringState state;
     state.multiplier = curve.beyond * over - curve.compressed * under;
     state.force = curve.below * extension + state.multiplier;
-    real reach = choose(both(curve.below > 0.0f, slack > 0.0f), 0.5f * slack, real(0.0f) - rest_length);
-    mask near = largest(extension, choose(curve.compressed > 0.0f, real(0.0f) - extension, extension)) > reach;
+    real taut = extension + curve.slip;
+    mask near = largest(taut, choose(curve.compressed > 0.0f, real(0.0f) - taut, taut)) > curve.reach * rest_length;
     state.along = curve.below + choose(near, largest(curve.beyond, curve.compressed), real(0.0f));
     state.across = largest(state.force * inverse_length, real(0.0f));
     state.energy = 0.5f * (curve.below * extension * extension + curve.beyond * over * over +

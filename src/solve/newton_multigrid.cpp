@@ -5,7 +5,7 @@
 namespace pliant {
 namespace {
 
-/// How often a Newton step is shortened before it is given up: 1/4, 1/16, 1/64, 1/256, none.
+/// How often a Newton step is tried before it is given up: whole, 1/4, 1/16, 1/256, 1/65536, none.
 constexpr std::uint32_t search_tries = 6;
 /// A step whose residual is above 1 after the iterations that are enough for others has more of them. Those
 /// of an impact need them.

@@ -16,7 +16,7 @@ struct SolverConstants {
     /// As LimitCurve of laws/limit.law.glsl.
     struct Curve {
         int kind = 0;
-        Number below{}, limit{}, beyond{}, compressed{}, damping{};
+        Number below{}, limit{}, beyond{}, compressed{}, damping{}, reach{};
     };
     Number dt{}, inverse_dt{}, decay{}, thickness{};
     // Steps of second order: see newton.kernel.glsl. 0: they are of first order.
@@ -34,6 +34,7 @@ struct SolverConstants {
     Number slip{};               ///< m
     // ACAD, by length squared over rest length squared: see kernels/acad.kernel.glsl.
     bool is_acad = false, acad_has_memory = false;
+    Number acad_reach{};  ///< how far a correction may take springs, of what is beyond the threshold
     Number acad_above2{}, acad_below2{}, acad_held_above2{}, acad_held_below2{}, acad_near_above2{},
         acad_near_below2{};
     int held = -1;  ///< offset of the node in a hand, see GrabInput

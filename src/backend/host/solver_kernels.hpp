@@ -184,7 +184,7 @@ struct SolverKernels {
         const auto& c = constants.curves[k];
         return {c.kind,           spread(c.below),      spread(c.limit),
                 spread(c.beyond), spread(c.compressed), spread(c.damping),
-                spread(Number(0))};
+                spread(Number(0)), spread(c.reach)};
     }
     real sheet_rest(int k) const
     {
@@ -269,6 +269,7 @@ struct SolverKernels {
     real acad_held_below2() const { return spread(constants.acad_held_below2); }
     real acad_near_above2() const { return spread(constants.acad_near_above2); }
     real acad_near_below2() const { return spread(constants.acad_near_below2); }
+    real acad_reach() const { return spread(constants.acad_reach); }
     void set_multiplier(int o, real a) const { Lanes<T>::store(context.multiplier + o, a); }
     mask inside_level() const { return inside_; }
 

@@ -10,6 +10,62 @@
 
 namespace pliant {
 
+namespace {
+
+/// The limits of ACAD are no stiffer than the step can solve: 1 / (1 / K + a) with the compliance a.
+///   Steps that are corrected: K = 300 m / dt^2. A node that comes with the length of a spring a step is
+///   stopped within 6 % of it.
+///   Implicit steps, longer: K = 18.4 m n^2 / dt^2. A pull passes through the n springs across the cloth
+///   in a step (ClothModel::softest_limit).
+/// 1e6 N/m on soft springs is 10,000 m / dt^2 and more. What a solve leaves open of that wins energy, and the
+/// cloth boils.
+template <class T>
+void soften_limits_of_acad(SolverConstants<T>& c, const ClothModel& model, double step_length)
+{
+    const double in_a_row = model.springs_across * model.springs_across;
+    const double most = (model.corrects_steps() ? 300 : 18.4 * in_a_row) * model.mean_mass;
+    const auto softened = [&](T k) {
+        return static_cast<T>(k * most / (most + k * step_length * step_length));
+    };
+    for (auto& curve : c.curves) {
+        curve.beyond = softened(curve.beyond);
+        curve.compressed = softened(curve.compressed);
+    }
+}
+
+/// What corrects the steps of ACAD (kernels/acad.kernel.glsl).
+template <class T>
+void set_acad(SolverConstants<T>& c, const ClothModel& model)
+{
+    const auto number = [](double a) { return static_cast<T>(a); };
+    const AcadOptions& acad = model.acad;
+    const bool to_rest = acad.target == AcadTarget::rest;
+    const double hold = acad.deactivate_at.value_or(acad.activate_at);
+    // A limit may act before the threshold is reached in this very step; a constraint to rest length must
+    // not. From half of the threshold on, wrinkles would be marked all over the cloth (docs/performance.md).
+    // A step that corrects much marks more: those that it may reach.
+    constexpr double near_part = 0.8;
+    const double near = to_rest ? acad.activate_at : near_part * acad.activate_at;
+    const auto above = [&](double stretch) { return number((1 + stretch) * (1 + stretch)); };
+    const auto below = [&](double stretch) {
+        return number(acad.compression ? (1 - stretch) * (1 - stretch) : 0);
+    };
+    c.is_acad = true;
+    c.acad_has_memory = to_rest && hold < acad.activate_at;
+    c.acad_above2 = above(acad.activate_at);
+    c.acad_below2 = below(acad.activate_at);
+    c.acad_held_above2 = above(hold);
+    c.acad_held_below2 = below(hold);
+    c.acad_near_above2 = above(near);
+    c.acad_near_below2 = below(near);
+    c.acad_reach = number(to_rest ? 0 : 1);
+    c.has_damping = false;  // springs have damped in their own step
+    // What the correction shortens, it must be free to.
+    for (auto& curve : c.curves) curve.reach = number(0.9 * curve.limit);
+}
+
+}  // namespace
+
 template <class T>
 SolverConstants<T> make_solver_constants(const ClothModel& model, double step_length, const GrabInput& grab)
 {
@@ -40,7 +96,8 @@ SolverConstants<T> make_solver_constants(const ClothModel& model, double step_le
                        number(springs.limit),
                        number(springs.beyond),
                        number(springs.compressed),
-                       number(step_length > 0 ? damping / model.implicit_step(step_length) : 0)};
+                       number(step_length > 0 ? damping / model.implicit_step(step_length) : 0),
+                       number(springs.below > 0 ? springs.limit : -1)};
     }
     if (grab.hold > 0 && !model.hierarchy.empty()) {
         const auto columns = static_cast<std::uint32_t>(model.hierarchy.levels.front().columns);
@@ -53,40 +110,15 @@ SolverConstants<T> make_solver_constants(const ClothModel& model, double step_le
     }
     c.exact_bend = model.bends_by_constraints();
     c.is_graded = model.graded;
-    if (model.corrects_steps()) {
-        const AcadOptions& acad = model.acad;
-        const bool to_rest = acad.target == AcadTarget::rest;
-        const double hold = acad.deactivate_at.value_or(acad.activate_at);
-        // A limit may act before the threshold is reached in this very step; a constraint to rest length must
-        // not.
-        // From half of the threshold on, wrinkles would be marked all over the cloth (docs/performance.md).
-        constexpr double near_part = 0.8;
-        const double near = to_rest ? acad.activate_at : near_part * acad.activate_at;
-        const auto above = [&](double stretch) { return number((1 + stretch) * (1 + stretch)); };
-        const auto below = [&](double stretch) {
-            return number(acad.compression ? (1 - stretch) * (1 - stretch) : 0);
-        };
-        c.is_acad = true;
-        c.acad_has_memory = to_rest && hold < acad.activate_at;
-        c.acad_above2 = above(acad.activate_at);
-        c.acad_below2 = below(acad.activate_at);
-        c.acad_held_above2 = above(hold);
-        c.acad_held_below2 = below(hold);
-        c.acad_near_above2 = above(near);
-        c.acad_near_below2 = below(near);
-        c.has_damping = false;  // springs have damped in their own step
-    }
+    if (model.method == Method::acad) soften_limits_of_acad(c, model, step_length);
+    if (model.corrects_steps()) set_acad(c, model);
     std::copy(std::begin(step.rest_lengths), std::end(step.rest_lengths), c.rest_lengths);
     const NewtonMultigridOptions& newton = model.newton;
     // Of the inertia m / dt^2 of a node: 100 keeps what a step presses in to a hundredth of its way, and lets
     // a node that lies still stay in touch when Newton's method moves it by a hundredth of g dt^2.
     constexpr double by_mass = 100;
-    // A step of ACAD remembers nothing of contact, and has it by stiffness alone.
-    constexpr double of_acad = 1e5;  // N/m
-    c.contact_is_by_mass = !(newton.contact_stiffness > 0) && !model.corrects_steps();
-    c.contact_stiffness = number(newton.contact_stiffness > 0 ? newton.contact_stiffness
-                                 : c.contact_is_by_mass       ? by_mass
-                                                              : of_acad);
+    c.contact_is_by_mass = !(newton.contact_stiffness > 0);
+    c.contact_stiffness = number(c.contact_is_by_mass ? by_mass : newton.contact_stiffness);
     c.slip = number(newton.friction_speed * step_length);
     c.linear_tolerance = number(newton.linear_tolerance);
     c.newton_tolerance = number(newton.newton_tolerance);

@@ -31,7 +31,7 @@ static_assert(offsetof(SolverLevel, live_edges) == 16 * sizeof(std::int32_t));
 struct SolverBlock {
     Float4 step_contact;
     Float4 curves[spring_class_count];
-    Float4 curve_damping;
+    Float4 curve_damping, curve_reach;
     float relaxations[SolverConstants<float>::most_relaxations]{};
     float tolerances[4]{};
     float softest[4]{}, compliance[4]{};
@@ -148,6 +148,7 @@ void SolverBuffers::set_constants(double step_length)
         block.curve_kinds[k] = curve.kind;
     }
     block.curve_damping = {c.curves[0].damping, c.curves[1].damping, c.curves[2].damping};
+    block.curve_reach = {c.curves[0].reach, c.curves[1].reach, c.curves[2].reach, c.acad_reach};
     std::copy(std::begin(c.relaxations), std::end(c.relaxations), block.relaxations);
     block.tolerances[0] = c.linear_tolerance;
     block.tolerances[1] = c.newton_tolerance;

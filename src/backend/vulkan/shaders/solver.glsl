@@ -23,6 +23,7 @@ layout(set = 0, binding = 18, std140) uniform Solver
     vec4 step_contact;       // s, 1/s, contact stiffness, m (slip)
     vec4 curves[3];          // LimitCurve by class: below, limit, beyond, compressed
     vec4 curve_damping;      // N/m by class
+    vec4 curve_reach;        // by class; w: acad_reach
     vec4 relaxations[2];
     vec4 tolerances;         // of the linear solve, of Newton's method, and its iterations
     vec4 softest;            // N/m, of limits that remember: by class with their compliance; w: without it
@@ -133,7 +134,7 @@ bool sheet_has(int k) { return solver.has[sheet_class(k)]; }
 LimitCurve class_curve(int k)
 {
     vec4 c = solver.curves[k];
-    return LimitCurve(solver.curve_kinds[k], c.x, c.y, c.z, c.w, solver.curve_damping[k], 0.0f);
+    return LimitCurve(solver.curve_kinds[k], c.x, c.y, c.z, c.w, solver.curve_damping[k], 0.0f, solver.curve_reach[k]);
 }
 LimitCurve sheet_curve(int k) { return class_curve(sheet_class(k)); }
 real sheet_rest(int k)
@@ -182,6 +183,7 @@ real acad_held_above2() { return solver.acad_above_below.z; }
 real acad_held_below2() { return solver.acad_above_below.w; }
 real acad_near_above2() { return solver.acad_near.x; }
 real acad_near_below2() { return solver.acad_near.y; }
+real acad_reach() { return solver.curve_reach.w; }
 
 int collider_count() { return int(parameters.collider_count); }
 Collider collider(int k) { return collider_at(push.index, uint(k)); }

@@ -1,0 +1,96 @@
+// Whole sheets of ACAD: soft ones, and such as are stepped implicitly because their steps are long. They must
+// fall, lose energy, keep to their threshold and come to rest as springs alone do.
+#include <gtest/gtest.h>
+
+#include "pliant/pliant.hpp"
+#include "test_cloths.hpp"
+#include "test_differences.hpp"
+
+namespace pliant {
+namespace {
+
+/// Square, 1 m, 1 kg, hung by two corners over a plane.
+Scene hung_sheet(std::uint32_t n, double stiffness, std::uint32_t substeps, double damping)
+{
+    Scene scene;
+    scene.method = Method::acad;
+    scene.time.substeps = substeps;
+    SheetOptions sheet;
+    sheet.rows = sheet.columns = n;
+    sheet.density = 1;
+    auto cloth = scene.add(Cloth::sheet(sheet));
+    cloth->position = {0, 1, 0};
+    cloth->springs.structural = {stiffness, 0.01};
+    cloth->springs.shear = {stiffness / 2, 0.01};
+    cloth->damping = damping;
+    cloth.pin(Corner::top_left).pin(Corner::top_right);
+    scene.add(Plane{});
+    return scene;
+}
+
+struct Run {
+    double longest = 0, most_gained = 0;  ///< of a frame: stretch, and J of energy
+    double first_energy = 0, energy = 0;  ///< J
+    Measures last;
+    SolverReport solver;
+};
+
+double energy_of(const Measures& m) { return m.kinetic_energy + m.elastic_energy + m.potential_energy; }
+
+Run run(const Scene& scene, int frames)
+{
+    Simulation simulation(scene, test::on(Backend::cpu));
+    test::Largest longest, gained;
+    Run result;
+    result.first_energy = result.energy = energy_of(simulation.report().measures);
+    for (int frame = 0; frame < frames; ++frame) {
+        simulation.advance(1 / 60.0);
+        result.last = simulation.report().measures;
+        longest.add(result.last.max_stretch);
+        gained.add(energy_of(result.last) - result.energy);
+        result.energy = energy_of(result.last);
+    }
+    result.longest = longest.value();
+    result.most_gained = gained.value();
+    result.solver = simulation.report().solver;
+    return result;
+}
+
+TEST(AcadSheet, SoftOnesLoseEnergyAndKeepToTheirThreshold)
+{
+    // Stiffness, N/m, and steps a frame: corrected ones, and one that is implicit. All of them are stretched
+    // by several times the threshold of 10 % as mass_spring.
+    struct Case {
+        double stiffness;
+        std::uint32_t substeps;
+    };
+    for (const Case& c : {Case{10, 0}, Case{10, 4}, Case{10, 1}, Case{100, 1}}) {
+        const Run sheet = run(hung_sheet(24, c.stiffness, c.substeps, 0.5), 150);
+        SCOPED_TRACE(testing::Message() << c.stiffness << " N/m, substeps " << c.substeps);
+        EXPECT_LE(sheet.longest, 0.12);
+        EXPECT_GT(sheet.longest, 0.1 - 1e-4);  // the threshold is reached
+        // Springs' own steps are symplectic: their energy swings, by a part of it. It is at most 0.3 J here.
+        EXPECT_LE(sheet.most_gained, 1e-3 * sheet.first_energy);
+        EXPECT_LT(sheet.energy, 0.7 * sheet.first_energy);
+        EXPECT_GT(sheet.solver.active_max, 0U);
+        EXPECT_LE(sheet.solver.residual_max, 1);
+    }
+}
+
+TEST(AcadSheet, InLongStepsRestsAsSpringsAloneDo)
+{
+    // The default springs in one step of 1/60 s, 18 times as long as they can be stepped explicitly.
+    Scene scene = hung_sheet(20, Springs{}.structural.stiffness, 1, 1);
+    Scene springs = scene;
+    springs.method = Method::mass_spring;
+    springs.time.substeps = 0;
+    const Run sheet = run(scene, 480), alone = run(springs, 480);
+    EXPECT_NEAR(sheet.last.mean_stretch, alone.last.mean_stretch, 0.01 * 0.1);
+    EXPECT_NEAR(sheet.last.max_stretch, alone.last.max_stretch, 0.03);
+    EXPECT_LT(sheet.last.max_speed, 0.05);  // a free hem of implicit steps that trembles has 1 m/s
+    EXPECT_LE(sheet.longest, 0.12);
+    EXPECT_LT(sheet.energy, 0.7 * sheet.first_energy);
+}
+
+}  // namespace
+}  // namespace pliant
