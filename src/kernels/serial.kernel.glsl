@@ -119,7 +119,7 @@ KERNEL void newton_check()
     set_scalar(scalar_newton, newton);
     set_scalar(scalar_residual_last, left <= 0.0f ? real(0.0f) : left * inverse_sqrt(left));
     // After so many, only what is not solved at all goes on.
-    real tolerance = newton + 0.5f > enough_iterations() ? real(1.0f) : newton_tolerance();
+    real tolerance = newton + 0.5f > enough_iterations() ? real(solved_residual) : newton_tolerance();
     bool solved = scalar(scalar_slope) <= tolerance * tolerance * load;
     bool refused = !(scalar(scalar_step) > 0.0f), done = solved || refused;
     if (refused) set_scalar(scalar_refused, scalar(scalar_refused) + real(1.0f));
