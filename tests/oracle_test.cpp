@@ -470,10 +470,7 @@ double first_newton_step(Backend backend)
     scene.cloth_handle(0)->position = {0, scene.cloth(0).thickness + 1e-3, 0};
     scene.add(Plane{});
     const ClothModel model(scene.cloth(0), scene);
-    std::unique_ptr<PassRunner> runner = backend == Backend::reference ? make_reference_runner({&model, 1})
-                                         : backend == Backend::cpu
-                                             ? make_cpu_runner({&model, 1}, test::on(backend))
-                                             : make_vulkan_runner({&model, 1}, test::on(backend));
+    const std::unique_ptr<PassRunner> runner = test::make_runner(backend, model);
     std::vector<Call> calls;
     append_linear_system(model, 0, 0, calls);
     append_linear_start(model, 0, 0, calls);
@@ -493,7 +490,7 @@ double first_newton_step(Backend backend)
 TEST(NewtonStep, EndsWhereAPlaneCarriesTheNodes)
 {
     const double depth = 9.81 / (100 * 60 * 60);
-    for (const Backend backend : {Backend::reference, Backend::cpu, Backend::vulkan})
+    for (const Backend backend : test::backends())
         EXPECT_NEAR(first_newton_step(backend), -1e-3 - depth, 4 * rounding * 3e-3) << name_of(backend);
 }
 

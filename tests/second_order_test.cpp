@@ -257,9 +257,9 @@ TEST(SecondOrder, WindIsThatAtTheEndOfAStep)
 
 TEST(SecondOrder, StrongWindIsNoWorseThanByEuler)
 {
-    // The air takes 1.6 of the speed in the first step: Euler turns it round and comes to rest, and what is
+    // The air takes 1.9 of the speed in the first step: Euler turns it round and comes to rest, and what is
     // taken for a line through two such forces would be unstable from 4/3 on.
-    constexpr double density = 0.05, speed = 8;
+    constexpr double density = 0.05, speed = 9.5;
     EXPECT_LT(std::abs(speed_in_air(2, 1, density, speed, 60)), speed / 8);
 }
 
@@ -338,6 +338,48 @@ TEST(SecondOrder, AStepOfAnotherLengthIsEulers)
     EXPECT_NEAR(fallen(a, b), g * (a * a + b * (a + b)), 1e-6);
 }
 
+TEST(SecondOrder, ANodeNearAColliderMakesStepsOfEuler)
+{
+    // Thrown up at 1 m/s from 1 cm above a plane: within the 3.3 cm that it looks ahead. The second step
+    // leads to 2 h v - 3 g h^2 by Euler, and to 2 h v - 8/3 g h^2 by BDF2.
+    const double h = frame;
+    for (const bool plane : {true, false}) {
+        Scene scene = sheet(4, 2);
+        Cloth& cloth = *scene.cloth_handle(0);
+        cloth.pins.clear();
+        cloth.rotation = {};
+        cloth.position = {0, cloth.thickness + 0.01, 0};
+        cloth.velocity = {0, 1, 0};
+        if (plane) scene.add(Plane{});
+        Simulation simulation(scene, test::on(Backend::cpu));
+        const double y = simulation.positions()[5].y;
+        simulation.advance(h);
+        simulation.advance(h);
+        EXPECT_NEAR(simulation.positions()[5].y - y, 2 * h - (plane ? 3 : 8.0 / 3) * g * h * h, 1e-6);
+    }
+}
+
+TEST(SecondOrder, ANodeThatIsStoppedHasTheVelocityOfItsWay)
+{
+    // At rest 1 mm above a plane, so that nothing is said to be near, a hand pulls it through. It is stopped
+    // after 1 mm, and t / (2/3 h) would be half as much again.
+    Scene scene = sheet(4, 2);
+    scene.gravity = {};
+    Cloth& cloth = *scene.cloth_handle(0);
+    cloth.pins.clear();
+    cloth.rotation = {};
+    cloth.position = {0, cloth.thickness + 0.001, 0};
+    scene.add(Plane{});
+    Simulation simulation(scene, test::on(Backend::cpu));
+    for (int k = 0; k < 3; ++k) simulation.advance(frame);
+    const Vec3d before = to_double(simulation.positions()[0]);
+    simulation.grab(0, 0, {before.x, -0.05, before.z}, 1000, 0);
+    simulation.advance(frame);
+    const double way = double{simulation.positions()[0].y} - before.y;
+    EXPECT_NEAR(way, -0.001, 3e-4);
+    EXPECT_NEAR(double{simulation.velocities()[0].y}, way / frame, 0.02 * 0.001 / frame);
+}
+
 TEST(SecondOrder, WhatFallsOnAPlaneLiesAsStillAsByEuler)
 {
     for (const std::uint32_t order : {1u, 2u}) {
@@ -385,12 +427,12 @@ TEST(SecondOrder, AHandHoldsWhatHangsFromIt)
     scene.cloth_handle(0)->damping = 3;
     Simulation simulation(scene, test::on(Backend::cpu));
     const Vec3d target = to_double(simulation.positions()[24]);
-    constexpr double stiffness = 40;  // N/m
+    constexpr double stiffness = 200;  // N/m
     for (int k = 0; k < 600; ++k) {
         simulation.grab(0, 24, target, stiffness, 1);
         simulation.advance(frame);
     }
-    EXPECT_NEAR(target.y - double{simulation.positions()[24].y}, 0.3 * g / stiffness, 0.002);
+    EXPECT_NEAR(target.y - double{simulation.positions()[24].y}, 0.3 * g / stiffness, 0.0005);
 }
 
 TEST(SecondOrder, PinsThatMoveTakeTheClothAlong)
