@@ -276,6 +276,7 @@ KERNEL void step_begin(int o)
     store(plane_mass, o, mass);
     vec3 ahead = aim - start;
     sums[0] = sums[0] + mass * dot3(ahead, ahead);
+    sums[1] = sums[1] + mass * dot3(start, start);
 
     if (collider_count() == 0) return;  // nobody asks for friction
     Grip g = no_grip();

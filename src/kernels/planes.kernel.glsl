@@ -111,6 +111,7 @@ const int sum_rho = 5;              // r . z
 const int sum_load = 6;             // J
 const int sum_lost = 7;             // J
 const int sum_contact_change = 7;   // J, before that
+const int sum_way = 7;              // J, of the start of a step, before that
 const int sum_active = 8;           // constraints
 const int sum_marked = 9;           // springs that ACAD has marked
 const int sum_renewed = 9;          // J: what limits are changed by that remember
