@@ -66,7 +66,7 @@ for variant in "${variants[@]}"; do
         --csv "$folder/mss_$variant.csv" || failed=1
 done
 if [ ${#quick[@]} -eq 0 ]; then
-    "$pliant" bench constraint --backend vulkan --device "$device" --only "one system a step" --csv "$folder/constraint_vulkan.csv" ||
+    "$pliant" bench constraint --backend vulkan --device "$device" --only "one to three systems a step" --csv "$folder/constraint_vulkan.csv" ||
         failed=1
 fi
 

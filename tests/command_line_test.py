@@ -84,6 +84,20 @@ def a_failed_check_is_bad_input(folder):
     expect("finite" not in outcome.err, "a check that holds is named as failed")
 
 
+@case
+def a_run_that_is_not_solved_fails_its_check_and_warns(folder):
+    # The built-in scene, small and short, by a solver that hardly works and by the one it has.
+    sheet = "--set time.duration=0.2 --set cloths[0].sheet.rows=24 --set cloths[0].sheet.columns=24"
+    hardly = " ".join("--set newton_multigrid." + option for option in [
+        "newton_iterations=1", "linear_iterations=1", "step_cuts=0", "preconditioner=jacobi"])
+    checked = ("run hanging_constraint --backend cpu --quiet --check " + sheet +
+               " --set 'check={\"solver.residual_max\": [0, 1]}'")
+    red = call(folder, f"{checked} {hardly}").expect(BAD_INPUT).err
+    expect_words(red, ["check failed", "solver.residual_max", "warning", "not solved"])
+    green = call(folder, checked).expect(0).err
+    expect("not solved" not in green, green)
+
+
 # --- what is good ---------------------------------------------------------------------------------
 
 @case

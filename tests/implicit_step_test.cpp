@@ -79,6 +79,30 @@ TEST(ImplicitStep, APlateThatRisesIsWhereItIsAtTheEndOfEachStep)
     }
 }
 
+TEST(ImplicitStep, WhatFliesWithoutForcesIsSolvedAtOnce)
+{
+    // Straight on, and turning once in 6 s: springs have to bend its way by (w h)^2 / 2 of 0.7 m, a hundredth
+    // of it.
+    for (const std::uint32_t order : {1u, 2u})
+        for (const float turn : {0.0f, 1.0f}) {
+            Scene scene = lying_sheet();
+            scene.gravity = {};
+            scene.newton_multigrid.order = order;
+            Simulation simulation(scene, test::on(Backend::cpu));
+            State state = simulation.state();
+            for (std::size_t i = 0; i < state.cloths[0].positions.size(); ++i) {
+                const Vec3 x = state.cloths[0].positions[i];
+                state.cloths[0].velocities[i] = {0.5f - turn * x.z, 0.2f, turn * x.x};
+            }
+            simulation.set_state(state);
+            for (int k = 0; k < 60; ++k) simulation.advance(frame);
+            const SolverReport& solver = simulation.report().solver;
+            EXPECT_TRUE(solver.is_solved()) << solver.residual_max;
+            EXPECT_EQ(solver.frames_cut, 0u);
+            EXPECT_LE(solver.newton_max, 8u) << "order " << order << ", turn " << turn;
+        }
+}
+
 Scene hanging_sheet(std::uint32_t n, double compliance = 1e-6)
 {
     Scene scene;

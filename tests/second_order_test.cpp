@@ -93,7 +93,8 @@ TEST(SecondOrder, SwingsLoseAFifthOfWhatEulerTakes)
         EXPECT_GT(euler, 0.01) << rows << " rows: it does not swing";
         EXPECT_LT(bdf2, euler / 5) << rows << " rows";
     }
-    const double euler = loss_of(sheet(48, 1), 10), bdf2 = loss_of(sheet(48, 2), 10);
+    // By the tolerances of order 1 a sheet of 48 x 48 keeps the bar, and one of 64 x 64 does not.
+    const double euler = loss_of(sheet(64, 1), 10), bdf2 = loss_of(sheet(64, 2), 10);
     EXPECT_GT(euler, 0.1) << "it does not swing";
     EXPECT_LT(bdf2, euler / 5);
 }
@@ -190,6 +191,78 @@ TEST(SecondOrder, AirTakesWhatItTakesToSecondOrder)
     }
 }
 
+Cloth triangle(double density)
+{
+    Cloth cloth = Cloth::mesh({.vertices = {{0, 0, 0}, {0.1f, 0, 0}, {0, 0, 0.1f}}, .triangles = {{0, 1, 2}}},
+                              {.density = density});
+    cloth.springs = {};
+    cloth.springs.structural = {0, 0};
+    cloth.springs.shear.role = cloth.springs.bend.role = SpringRole::off;
+    cloth.damping = 0;
+    return cloth;
+}
+
+TEST(SecondOrder, DampersOfAFirstStepAreEulers)
+{
+    // A triangle grows evenly while it falls, so that no spring turns.
+    const auto speed = [](std::uint32_t order, Backend backend) {
+        Scene scene;
+        scene.integrator = Integrator::implicit_euler;
+        scene.newton_multigrid.order = order;
+        test::converge(scene);
+        scene.add(triangle(0.6));
+        scene.cloth_handle(0)->springs.structural = {1, 0.02};
+        scene.time.substeps = 1;
+        Simulation simulation(scene, test::on(backend));
+        State state = simulation.state();
+        state.cloths[0].velocities = {{-0.1f, 0, -0.1f}, {0.2f, 0, -0.1f}, {-0.1f, 0, 0.2f}};
+        simulation.set_state(state);
+        simulation.advance(frame);
+        return double{simulation.velocities()[1].x};
+    };
+    for (const Backend backend : {Backend::reference, Backend::cpu}) {
+        EXPECT_LT(speed(1, backend), 0.18) << "dampers do nothing";
+        EXPECT_NEAR(speed(2, backend), speed(1, backend), 1e-6) << name_of(backend);
+    }
+}
+
+/// A triangle that the air stops, m/s along the wind after a tenth of a second; by theory u / (1 + r u t) of
+/// its speed u against the air, r = 1/2 rho C_d / density. It moves as one piece.
+double speed_in_air(std::uint32_t order, std::uint32_t substeps, double density, double speed, int frames)
+{
+    Scene scene;
+    scene.method = Method::constraint;
+    scene.newton_multigrid.order = order;
+    test::converge(scene);
+    scene.gravity = {};
+    scene.time.substeps = substeps;
+    scene.air = {.velocity = {}, .density = 1.2, .drag = 1, .lift = 0};
+    scene.add(triangle(density));
+    scene.cloth_handle(0)->velocity = {0, speed, 0};
+    Simulation simulation(scene, test::on(Backend::reference));
+    for (int k = 0; k < frames; ++k) simulation.advance(frame);
+    return double{simulation.velocities()[0].y};
+}
+
+TEST(SecondOrder, WindIsThatAtTheEndOfAStep)
+{
+    constexpr double density = 0.6, speed = 4, rate = 0.5 * 1.2 / density,
+                     exact = speed / (1 + rate * speed * 0.1);
+    for (const std::uint32_t order : {1u, 2u}) {
+        const double coarse = speed_in_air(order, 4, density, speed, 6) - exact,
+                     fine = speed_in_air(order, 8, density, speed, 6) - exact;
+        EXPECT_NEAR(coarse / fine, order == 1 ? 2 : 4, order == 1 ? 0.2 : 0.4) << order << ", " << coarse;
+    }
+}
+
+TEST(SecondOrder, StrongWindIsNoWorseThanByEuler)
+{
+    // The air takes 1.9 of the speed in the first step: Euler turns it round and comes to rest, and what is
+    // taken for a line through two such forces would be unstable from 4/3 on.
+    constexpr double density = 0.05, speed = 9.5;
+    EXPECT_LT(std::abs(speed_in_air(2, 1, density, speed, 60)), speed / 8);
+}
+
 /// A swinging sheet, or an irregular mesh.
 Scene swinging(bool mesh)
 {
@@ -265,6 +338,48 @@ TEST(SecondOrder, AStepOfAnotherLengthIsEulers)
     EXPECT_NEAR(fallen(a, b), g * (a * a + b * (a + b)), 1e-6);
 }
 
+TEST(SecondOrder, ANodeNearAColliderMakesStepsOfEuler)
+{
+    // Thrown up at 1 m/s from 1 cm above a plane: within the 3.3 cm that it looks ahead. The second step
+    // leads to 2 h v - 3 g h^2 by Euler, and to 2 h v - 8/3 g h^2 by BDF2.
+    const double h = frame;
+    for (const bool plane : {true, false}) {
+        Scene scene = sheet(4, 2);
+        Cloth& cloth = *scene.cloth_handle(0);
+        cloth.pins.clear();
+        cloth.rotation = {};
+        cloth.position = {0, cloth.thickness + 0.01, 0};
+        cloth.velocity = {0, 1, 0};
+        if (plane) scene.add(Plane{});
+        Simulation simulation(scene, test::on(Backend::cpu));
+        const double y = simulation.positions()[5].y;
+        simulation.advance(h);
+        simulation.advance(h);
+        EXPECT_NEAR(simulation.positions()[5].y - y, 2 * h - (plane ? 3 : 8.0 / 3) * g * h * h, 1e-6);
+    }
+}
+
+TEST(SecondOrder, ANodeThatIsStoppedHasTheVelocityOfItsWay)
+{
+    // At rest 1 mm above a plane, so that nothing is said to be near, a hand pulls it through. It is stopped
+    // after 1 mm, and t / (2/3 h) would be half as much again.
+    Scene scene = sheet(4, 2);
+    scene.gravity = {};
+    Cloth& cloth = *scene.cloth_handle(0);
+    cloth.pins.clear();
+    cloth.rotation = {};
+    cloth.position = {0, cloth.thickness + 0.001, 0};
+    scene.add(Plane{});
+    Simulation simulation(scene, test::on(Backend::cpu));
+    for (int k = 0; k < 3; ++k) simulation.advance(frame);
+    const Vec3d before = to_double(simulation.positions()[0]);
+    simulation.grab(0, 0, {before.x, -0.05, before.z}, 1000, 0);
+    simulation.advance(frame);
+    const double way = double{simulation.positions()[0].y} - before.y;
+    EXPECT_NEAR(way, -0.001, 3e-4);
+    EXPECT_NEAR(double{simulation.velocities()[0].y}, way / frame, 0.02 * 0.001 / frame);
+}
+
 TEST(SecondOrder, WhatFallsOnAPlaneLiesAsStillAsByEuler)
 {
     for (const std::uint32_t order : {1u, 2u}) {
@@ -312,12 +427,12 @@ TEST(SecondOrder, AHandHoldsWhatHangsFromIt)
     scene.cloth_handle(0)->damping = 3;
     Simulation simulation(scene, test::on(Backend::cpu));
     const Vec3d target = to_double(simulation.positions()[24]);
-    constexpr double stiffness = 40;  // N/m
+    constexpr double stiffness = 200;  // N/m
     for (int k = 0; k < 600; ++k) {
         simulation.grab(0, 24, target, stiffness, 1);
         simulation.advance(frame);
     }
-    EXPECT_NEAR(target.y - double{simulation.positions()[24].y}, 0.3 * g / stiffness, 0.002);
+    EXPECT_NEAR(target.y - double{simulation.positions()[24].y}, 0.3 * g / stiffness, 0.0005);
 }
 
 TEST(SecondOrder, PinsThatMoveTakeTheClothAlong)

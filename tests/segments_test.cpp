@@ -84,6 +84,32 @@ TEST(Segments, AreOneWithoutLoops)
     EXPECT_TRUE(segments_of({}).empty());
 }
 
+TEST(Segments, EndWithTheNewtonIterationThatSolvesAStep)
+{
+    // Newton's method ends by its second check, of 24 that are recorded. What is submitted are the calls up
+    // to there, and those that nothing guards.
+    const std::vector<Call> calls = frame_of("hanging_constraint", 1);
+    std::size_t solved = 0, checks = 0, unguarded = 0;
+    for (std::size_t k = 0; k < calls.size(); ++k) {
+        if (calls[k].pass == Pass::newton_check && ++checks == 2) solved = k + 1;
+        if (checks >= 2 && k >= solved && calls[k].guard == Guard::none) ++unguarded;
+    }
+    ASSERT_EQ(checks, 24u);
+    std::size_t submitted = 0, waits = 0;
+    const std::vector<Segment> segments = segments_of(calls);
+    for (std::size_t s = 0; s < segments.size();) {
+        waits += segments[s].looks ? 1 : 0;
+        if (segments[s].looks && segments[s].first >= solved) {
+            s = segments[s].next;
+            continue;
+        }
+        submitted += segments[s].end - segments[s].first;
+        ++s;
+    }
+    EXPECT_EQ(submitted, solved + unguarded);
+    EXPECT_EQ(waits, 2u);
+}
+
 TEST(Segments, OfAnIdleStepOfAcadAreShort)
 {
     const std::vector<Call> calls = frame_of("cloth_sphere", 8);

@@ -29,6 +29,7 @@ struct SolverCase {
     std::uint32_t rings = 0;   ///< a disc
     std::uint32_t spokes = 0;  ///< a wheel
     std::uint32_t order = 1;   ///< in time
+    bool wind = false;
 };
 void PrintTo(const SolverCase& c, std::ostream* out) { *out << c.name; }
 
@@ -61,6 +62,7 @@ const SolverCase cases[] = {
     {.name = "sheet_second_order", .rows = 17, .columns = 35, .order = 2},
     {.name = "bent_second_order", .rows = 9, .columns = 21, .stiff_bend = true, .order = 2},
     {.name = "mesh_second_order", .rows = 17, .columns = 13, .mesh = true, .order = 2},
+    {.name = "wind_second_order", .rows = 9, .columns = 21, .order = 2, .wind = true},
     {.name = "acad_graded", .rows = 9, .columns = 11, .method = Method::acad, .graded = true},
     {.name = "acad_sheet", .rows = 9, .columns = 11, .method = Method::acad},
     {.name = "acad_mesh", .rows = 9, .columns = 11, .mesh = true, .method = Method::acad},
@@ -112,6 +114,7 @@ Scene scene_of(const SolverCase& c)
     if (c.solver == Solver::paper) scene.acad.target = AcadTarget::rest;
     scene.paper.tolerance = 1e-6;
     scene.paper.max_iterations = 500;
+    if (c.wind) scene.air = {.velocity = {1, 3, 2}, .density = 1.2};
     Cloth cloth = cloth_of(c);
     cloth.springs = {{1000, 0.01}, {500, 0.01}, {1, 0}};
     cloth.springs.structural.compliance = cloth.springs.shear.compliance = cloth.springs.bend.compliance =

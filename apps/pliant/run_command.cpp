@@ -255,7 +255,7 @@ private:
     {
         const SolverReport& solver = simulation_.report().solver;
         if (!solver.used()) return;
-        if (!(solver.residual_max <= 1))
+        if (!solver.is_solved())
             std::fprintf(stderr,
                          "warning: steps were not solved: the largest residual is %.3g of what inertia and "
                          "gravity ask of a step; take more substeps (--set time.substeps=N) or iterations "

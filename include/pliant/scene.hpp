@@ -352,7 +352,7 @@ struct NewtonMultigridOptions {
     std::uint32_t smoothing = 1;  ///< 1 to 8: degree of the smoother before and after each level
     /// 1 or 2, of a step in time. 1: implicit Euler, which takes a swing away. 2: BDF2, the backward
     /// differentiation formula of two steps, which hardly does, for steps as long as the one before; others,
-    /// and those of nodes that touch a collider, are of order 1.
+    /// and those of nodes that touch a collider, are of order 1. Tolerances count a third at order 2.
     std::uint32_t order = 1;
     Preconditioner preconditioner = Preconditioner::multigrid;
     Enforcement enforcement = Enforcement::multiplier;

@@ -122,6 +122,10 @@ struct SolverReport {
 
     /// False with the method mass_spring, and before the first step.
     bool used() const { return solves > 0; }
+
+    /// Of every step, and of the last one: its residual is at most 1.
+    bool is_solved() const noexcept;
+    bool last_is_solved() const noexcept;
 };
 
 /// Counters of a simulation.

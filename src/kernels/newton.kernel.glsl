@@ -230,6 +230,19 @@ KERNEL void forget_near_colliders(int o, vec3 x, vec3 v)
     store(before, o, kept);
 }
 
+// The wind that a step goes by, N: that at its start; at second order that at its end, on the line through it and the
+// start of the step before. Where wind changes by more than half of itself in a step such a line would be unstable.
+// Source: Ascher, Ruuth, Wetton, "Implicit-explicit methods for time-dependent partial differential equations", 1995.
+KERNEL vec3 wind_in_step(int o)
+{
+    vec3 force = node_force(o);
+    if (!is_second_order()) return force;
+    vec3 change = force - load3(history_plane() + history_force, o);
+    store3(history_plane() + history_force, o, force);
+    mask is_smooth = both(knows_before(o), dot3(force, force) > 4.0f * dot3(change, change));
+    return force + change * choose(is_smooth, real(1.0f), real(0.0f));
+}
+
 // The start of a step. Friction knows the normal force that the last step ended with; of a node that touches a collider
 // without having been found there by a step, what its depth makes of it.
 KERNEL void step_begin(int o)
@@ -250,7 +263,7 @@ KERNEL void step_begin(int o)
     vec3 pulled = mean;
     if (hand_is_near(o))
         pulled = where_held(o, grabbed_velocity(q, mean, hand_target(), gravity(), hand_pull(), hand_hold(), step), mean);
-    vec3 push = (gravity() + node_force(o) * w) * step, aim = (pulled * decay() + push) * step;
+    vec3 push = (gravity() + wind_in_step(o) * w) * step, aim = (pulled * decay() + push) * step;
     if (is_second_order()) {  // air by the velocity at the end: what it takes is inertia
         real weight = air() * step + 1.0f;
         aim = (pulled + push) * (step * reciprocal(weight));
@@ -263,6 +276,7 @@ KERNEL void step_begin(int o)
     store(plane_mass, o, mass);
     vec3 ahead = aim - start;
     sums[0] = sums[0] + mass * dot3(ahead, ahead);
+    sums[1] = sums[1] + mass * dot3(start, start);
 
     if (collider_count() == 0) return;  // nobody asks for friction
     Grip g = no_grip();

@@ -47,7 +47,8 @@ const int bent_sheet_planes = 125;
 const int history_way = 0;     // m, how far it went
 const int history_velocity = 3; // m/s, that it began with
 const int history_step = 6;    // s, how long it was; 0 where the next one is to be of first order
-const int history_planes = 7;
+const int history_force = 7;   // N, of wind, that it began with
+const int history_planes = 10;
 
 // Of a mesh's spring; a coupling of a coarser level has the block alone. Row sums of nodes come after the blocks.
 const int edge_block = 0;      // N/m
@@ -60,6 +61,9 @@ const int edge_bending = 13;
 const int edge_slip = 14;      // of limits that remember: LimitMemory
 const int edge_stiff = 15;
 const int edge_planes = 16;
+
+// A step is solved when its residual is at most this, of its load.
+const float solved_residual = 1.0f;
 
 // Numbers of a cloth's solve that are no nodes': the control of the iterations, and their counters.
 const int scalar_newton_done = 0;   // 1 when this step's Newton iteration has ended
@@ -108,6 +112,7 @@ const int sum_rho = 5;              // r . z
 const int sum_load = 6;             // J
 const int sum_lost = 7;             // J
 const int sum_contact_change = 7;   // J, before that
+const int sum_way = 7;              // J, of the start of a step, before that
 const int sum_active = 8;           // constraints
 const int sum_marked = 9;           // springs that ACAD has marked
 const int sum_renewed = 9;          // J: what limits are changed by that remember

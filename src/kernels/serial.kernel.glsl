@@ -33,7 +33,10 @@ KERNEL void solve_begin()
     set_scalar(scalar_iterations, real(0.0f));
     set_scalar(scalar_residual_last, real(0.0f));
     if (idle) return;
-    set_scalar(scalar_load, total(sum_load));
+    // What flies without forces asks for nothing beyond where it goes anyway, and nothing could be solved to a part of that:
+    // so a load is at least a thousandth of the way.
+    real least = is_acad() ? real(0.0f) : total(sum_way) * real(1e-6f);
+    set_scalar(scalar_load, largest(total(sum_load), least));
     accept_energies();
 }
 
@@ -125,7 +128,7 @@ KERNEL void newton_check()
     set_scalar(scalar_newton, newton);
     set_scalar(scalar_residual_last, left <= 0.0f ? real(0.0f) : left * inverse_sqrt(left));
     // After so many, only what is not solved at all goes on.
-    real tolerance = newton + 0.5f > enough_iterations() ? real(1.0f) : newton_tolerance();
+    real tolerance = newton + 0.5f > enough_iterations() ? real(solved_residual) : newton_tolerance();
     bool solved = scalar(scalar_slope) <= tolerance * tolerance * load;
     bool refused = !(scalar(scalar_step) > 0.0f), done = solved || refused;
     if (refused) set_scalar(scalar_refused, scalar(scalar_refused) + real(1.0f));

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "kernels/planes.hpp"
 #include "simulation/implementation.hpp"
 
 namespace pliant {
@@ -57,6 +58,9 @@ void Simulation::advance(double duration) noexcept
         implementation_->stop("a job system threw what is no std::exception");
     }
 }
+
+bool SolverReport::is_solved() const noexcept { return residual_max <= double{solved_residual}; }
+bool SolverReport::last_is_solved() const noexcept { return residual_last <= double{solved_residual}; }
 
 double Simulation::time() const
 {

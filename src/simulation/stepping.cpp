@@ -219,7 +219,8 @@ void Simulation::Implementation::cut_steps(std::uint32_t model, std::uint32_t st
     constexpr std::uint32_t parts = 3;
     double residual = solver_number(model, scalar_residual_max);
     std::uint32_t all_parts = 1;
-    for (std::uint32_t cut = 0; cut < models[model].newton.step_cuts && !(residual <= 1); ++cut) {
+    for (std::uint32_t cut = 0;
+         cut < models[model].newton.step_cuts && !(residual <= double{solved_residual}); ++cut) {
         runner->put_back(kept(model, steps, from_parity));
         all_parts *= parts;
         fit_memory(model, step / all_parts);

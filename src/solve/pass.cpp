@@ -44,8 +44,8 @@ SumSlots sum_slots_of(Pass pass)
         case Pass::linear_plain:
         case Pass::mesh_smooth:
         case Pass::level_smooth: return {sum_rho, 1};
-        case Pass::acad_begin:
-        case Pass::step_begin: return {sum_load, 1};
+        case Pass::acad_begin: return {sum_load, 1};
+        case Pass::step_begin: return {sum_load, 2};  // and the way
         case Pass::mesh_limits:
         case Pass::sheet_limits: return {sum_active, 2};  // and how far beyond
         case Pass::sheet_marks: return {sum_active, 2};  // and marked springs

@@ -166,7 +166,7 @@ void Panel::draw_state(Session& session, View& view)
                            static_cast<unsigned long long>(report.bad_node));
         offer_reset("Reset##diverged");
     }
-    if (report.solver.residual_last > 1)
+    if (!report.solver.last_is_solved())
         ImGui::TextColored(warning_colour, "the last step is not solved: residual %.2g",
                            report.solver.residual_last);
     if (report.device_lost) ImGui::TextColored(warning_colour, "stopped: %s", report.failure.c_str());

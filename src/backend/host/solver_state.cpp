@@ -42,7 +42,7 @@ void set_acad(SolverConstants<T>& c, const ClothModel& model)
     const bool to_rest = acad.target == AcadTarget::rest;
     const double hold = acad.deactivate_at.value_or(acad.activate_at);
     // A limit may act before the threshold is reached in this very step; a constraint to rest length must
-    // not. From half of the threshold on, wrinkles would be marked all over the cloth (docs/performance.md).
+    // not. From half of the threshold on, wrinkles would be marked all over the cloth (docs/notes).
     // A step that corrects much marks more: those that it may reach.
     constexpr double near_part = 0.8;
     const double near = to_rest ? acad.activate_at : near_part * acad.activate_at;
@@ -78,10 +78,10 @@ SolverConstants<T> make_solver_constants(const ClothModel& model, double step_le
     c.decay = step.decay;
     c.thickness = step.thickness;
     if (model.is_second_order()) {
-        const double part = model.implicit_step(step_length);
+        const double short_step = model.implicit_step(step_length);
         c.history_plane = model.hierarchy.history_plane;
-        c.short_dt = number(part);
-        c.inverse_short_dt = number(part > 0 ? 1 / part : 0);
+        c.short_dt = number(short_step);
+        c.inverse_short_dt = number(short_step > 0 ? 1 / short_step : 0);
         c.third = number(1.0 / 3);
         c.air = number(model.parameters.damping);
     }
@@ -120,8 +120,10 @@ SolverConstants<T> make_solver_constants(const ClothModel& model, double step_le
     c.contact_is_by_mass = !(newton.contact_stiffness > 0);
     c.contact_stiffness = number(c.contact_is_by_mass ? by_mass : newton.contact_stiffness);
     c.slip = number(newton.friction_speed * step_length);
-    c.linear_tolerance = number(newton.linear_tolerance);
-    c.newton_tolerance = number(newton.newton_tolerance);
+    // BDF2 does not damp away what a step leaves.
+    const double part = model.is_second_order() ? 1.0 / 3 : 1;
+    c.linear_tolerance = number(newton.linear_tolerance * part);
+    c.newton_tolerance = number(newton.newton_tolerance * part);
     c.enough_iterations = number(enough_iterations(model));
     if (step_length > 0 && !model.corrects_steps()) {
         const double softest = model.softest_limit(step_length);
@@ -137,7 +139,7 @@ SolverConstants<T> make_solver_constants(const ClothModel& model, double step_le
         }
     }
     // Chebyshev's points on the upper part of the spectrum of D^-1 A, which the smoother has to take care of:
-    // the higher its degree, the larger the part that it can. Measured by V-cycles (docs/performance.md).
+    // the higher its degree, the larger the part that it can. Measured by V-cycles (docs/notes).
     const double greatest = model.spectrum_end;
     constexpr std::uint32_t high_degree = 5;
     const double least = greatest / (newton.smoothing < high_degree ? 8 : 32);

@@ -19,8 +19,8 @@ struct Segment {
 };
 
 /// To look costs a wait for the device, as much as some tens of dispatches that do nothing: so the host looks
-/// only where at least so many calls may be skipped, and within loops only so many calls after the last look
-/// (about once for each of Newton's steps).
+/// only where at least so many calls may be skipped, and within loops only where a Newton iteration has
+/// ended, or so many calls after the last look.
 constexpr std::uint32_t least_skipped = 64, least_between_looks = 256;
 
 /// All calls, in their order; a program without guards is one segment.

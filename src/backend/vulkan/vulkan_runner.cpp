@@ -338,39 +338,41 @@ private:
             for (const Kept& kept : program.keeps) cloths_[kept.cloth].make_room_for(*device_, kept);
             if (sets_changed || recordings_.size() >= most_recordings) recordings_.clear();
         }
-        if (found == recordings_.end()) found = recordings_.emplace(program.id, record(program)).first;
-        const std::vector<Recording>& recordings = found->second;
+        if (found == recordings_.end()) found = recordings_.emplace(program.id, cut(program)).first;
+        std::vector<Recording>& recordings = found->second;
         for (std::size_t s = 0; s < recordings.size();) {
-            const Recording& recording = recordings[s];
+            Recording& recording = recordings[s];
             if (recording.segment.looks && cloths_[recording.cloth].solver().skips(recording.guard)) {
                 s = recording.segment.next;
                 continue;
             }
+            if (!*recording.commands) record(program, recording);
             lane_.run(recording.commands);
             if (*recording.queries) take_times(recording);
             ++s;
         }
     }
 
-    std::vector<Recording> record(const Program& program) const
+    /// Its segments, none of them recorded: most of Newton's iterations are hardly ever needed.
+    static std::vector<Recording> cut(const Program& program)
     {
         std::vector<Recording> recordings;
-        for (const Segment& segment : segments_of(program.calls))
-            recordings.push_back(record(program, segment));
+        for (const Segment& segment : segments_of(program.calls)) {
+            const Call& call = program.calls[segment.first];
+            recordings.emplace_back();
+            recordings.back().segment = segment;
+            recordings.back().cloth = call.cloth;
+            recordings.back().guard = call.guard;
+        }
         return recordings;
     }
 
-    Recording record(const Program& program, const Segment& segment) const
+    void record(const Program& program, Recording& recording) const
     {
-        Recording recording;
-        recording.segment = segment;
+        const Segment& segment = recording.segment;
         const std::vector<Dispatch> dispatches = dispatches_of(
             std::span(program.calls).subspan(segment.first, segment.end - segment.first), steps_at_once_);
         pipelines_->make(*device_, dispatches);
-        if (!dispatches.empty()) {
-            recording.cloth = dispatches.front().call.cloth;
-            recording.guard = dispatches.front().call.guard;
-        }
         for (const Dispatch& d : dispatches) {
             if (recording.stretches.empty() || recording.stretches.back().pass != d.call.pass)
                 recording.stretches.push_back({d.call.pass, 0});
@@ -424,7 +426,6 @@ private:
                     vk::PipelineStageFlagBits::eHost, vk::AccessFlagBits::eHostRead);
         }
         commands.end();
-        return recording;
     }
 
     void record(const vk::raii::CommandBuffer& commands, const Dispatch& dispatch) const
