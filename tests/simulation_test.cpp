@@ -141,6 +141,7 @@ TEST(Simulation, WholeStepsAddUpToWhatWasAskedFor)
         Scene scene = small_scene();
         scene.time.substeps = substeps;
         scene.time.frame_rate = 60;
+        scene.cloth_handle(0)->springs = {.structural = {1, 0}, .shear = {1, 0}, .bend = {1, 0}};
         Simulation simulation(scene, test::on(Backend::cpu));
         const double step = simulation.step_length();
         for (int k = 1; k <= 144; ++k) {

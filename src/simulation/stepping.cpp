@@ -232,7 +232,10 @@ void Simulation::Implementation::cut_steps(std::uint32_t model, std::uint32_t st
     // by as much as a step is long, more than this.
     constexpr double at_once = 0.01, helps = 0.8;
     const bool holds = models[model].does_not_stretch(step);
-    const double most = std::max(stretch_before, models[model].largest_limit()) + at_once;
+    const double limit = models[model].largest_limit();
+    // Cloth that is stretched already cannot reach as far as it is pulled, in steps of any length.
+    const double most = stretch_before < limit + 2 * at_once ? std::max(stretch_before, limit) + at_once
+                                                             : std::numeric_limits<double>::infinity();
     const auto stretch_now = [&] { return holds ? runner->measures(model).max_stretch : 0; };
     double residual = solver_number(model, scalar_residual_max), stretch = stretch_now();
     std::uint32_t all_parts = 1;
@@ -334,12 +337,15 @@ void Simulation::Implementation::place_colliders(std::uint32_t steps, double ste
 
 void Simulation::Implementation::find_jumps(std::uint32_t steps, double step)
 {
+    constexpr double fastest_collider = 100;  // m/s; what is faster jumps, and gives nobody that speed
     const std::size_t count = scene.colliders.size();
     const auto length = [](Vec3d a) { return std::sqrt(dot(a, a)); };
     for (std::size_t k = 0; k < count; ++k) {
         PlacedCollider before = placed_at(scene.colliders[k], report.simulated_seconds);
+        if (length(before.velocity) > fastest_collider) before.velocity = {};
         for (std::size_t s = 0; s < steps; ++s) {
-            const PlacedCollider& now = placed[s * count + k];
+            PlacedCollider& now = placed[s * count + k];
+            if (length(now.velocity) > fastest_collider) now.velocity = {};
             // A start or a stop within a step moves a collider by no more than its speed does.
             const double way = step * (length(before.velocity) + length(now.velocity));
             if (length(now.centre - before.centre) > way + deepest_contact) lets_rise[k] = 1;
