@@ -135,6 +135,44 @@ TEST(Contact, StepPutsTheNodeOnTheSurfaceAndDoesNotLetItCreep)
     EXPECT_EQ(length(pinned.position - next.position), 0);
 }
 
+TEST(Contact, LetsASunkNodeRise)
+{
+    D::Collider plane{};
+    plane.kind = 1;
+    plane.axis_y = {0, 1, 0};
+    plane.response = 2;
+    const double dt = 1e-4, g = 9.81;
+    const auto stepped = [&](double height, double speed, double inverse_mass = 1) {
+        D::Motion now{{0, height, 0}, {0, speed, 0}}, next;
+        next.velocity = {0, speed - g * dt, 0};
+        next.position = now.position + next.velocity * dt;
+        return D::contact_step(now, next, plane, 0.0, inverse_mass, dt);
+    };
+    // From rest by 1000 m/s2, less gravity; that takes the place that the speed gives.
+    const D::Motion first = stepped(-0.5, 0);
+    EXPECT_NEAR(first.velocity.y, (1000 - g) * dt, 1e-12);
+    EXPECT_NEAR(first.position.y, -0.5 + first.velocity.y * dt, 1e-12);
+    // Up to 1 m/s, and 8 times a second the depth.
+    EXPECT_NEAR(stepped(-0.5, 1).velocity.y, 1, 1e-12);
+    EXPECT_NEAR(stepped(-0.01, 0.08).velocity.y, 0.08, 8 * 0.08 * dt);
+    EXPECT_NEAR(stepped(-0.5, 3).velocity.y, 3 - g * dt, 1e-12);  // what is faster stays so
+    EXPECT_NEAR(stepped(-0.5, -3).velocity.y, 0, 1e-12);          // nothing sinks deeper
+    EXPECT_EQ(stepped(-0.5, 0, 0).velocity.y, -g * dt);           // a pin
+    // What contact leaves, a millimetre at most, is put on the surface as ever, and so is what has come from
+    // outside.
+    EXPECT_NEAR(stepped(-0.0009, 0).position.y, 0, 1e-12);
+    EXPECT_NEAR(stepped(-0.0009, 0).velocity.y, 0, 1e-12);
+    EXPECT_NEAR(stepped(0.001, -30).position.y, 0, 1e-12);
+    // Over many steps it arrives without speed.
+    D::Motion m{{0, -0.25, 0}, {0, 0, 0}};
+    double fastest = 0;
+    for (int k = 0; k < 20000; ++k)
+        m = stepped(m.position.y, m.velocity.y), fastest = std::max(fastest, m.velocity.y);
+    EXPECT_NEAR(m.position.y, 0, 1e-12);
+    EXPECT_LE(fastest, 1 + 1e-9);
+    EXPECT_NEAR(m.velocity.y, 0, 1e-12);
+}
+
 TEST(Contact, PaperResponseIsAlgorithm4AsPrinted)
 {
     // 3 m/s of sliding with 1 m/s outward becomes |n + v / |v||: no units of velocity (see errata).

@@ -134,6 +134,41 @@ TEST(Simulation, ExplicitStepsAreKeptAndWarnedOf)
     EXPECT_NE(warning.find(std::to_string(needed)), std::string::npos) << warning;
 }
 
+TEST(Simulation, WholeStepsAddUpToWhatWasAskedFor)
+{
+    // 16.67 steps a call, and 0.42 of one.
+    for (const std::uint32_t substeps : {40u, 1u}) {
+        Scene scene = small_scene();
+        scene.time.substeps = substeps;
+        scene.time.frame_rate = 60;
+        scene.cloth_handle(0)->springs = {.structural = {1, 0}, .shear = {1, 0}, .bend = {1, 0}};
+        Simulation simulation(scene, test::on(Backend::cpu));
+        const double step = simulation.step_length();
+        for (int k = 1; k <= 144; ++k) {
+            simulation.advance(1.0 / 144);
+            EXPECT_LE(std::abs(simulation.time() - k / 144.0), step * (0.5 + 1e-6));
+        }
+        EXPECT_EQ(simulation.report().steps, 60 * substeps);
+        EXPECT_NEAR(simulation.time(), 1, 1e-12);
+    }
+}
+
+TEST(Simulation, APutStateOwesNothing)
+{
+    Scene scene = small_scene();
+    scene.time.substeps = 1;
+    Simulation simulation(scene, test::on(Backend::cpu));
+    const State start = simulation.state();
+    simulation.advance(1.4 / 60);
+    EXPECT_EQ(simulation.report().steps, 1u);
+    simulation.set_state(start);
+    simulation.advance(1.4 / 60);  // 0.8 are owed otherwise
+    EXPECT_EQ(simulation.report().steps, 2u);
+    simulation.advance(1.4 / 60);
+    EXPECT_EQ(simulation.report().steps, 4u);
+    EXPECT_NEAR(simulation.time(), 3 / 60.0, 1e-12);
+}
+
 TEST(Simulation, ALongAdvanceIsTheSameAsItsFrames)
 {
     Scene scene = small_scene();

@@ -274,6 +274,63 @@ TEST(VolumeTarget, IsFollowedOverTime)
     }
 }
 
+TEST(VolumeTarget, ThatBeginsElsewhereIsGoneToFromRest)
+{
+    using Values = std::vector<std::pair<double, double>>;
+    const auto taken = [](const std::vector<TimedValue>& target) {
+        Values values;
+        for (const TimedValue& value : gradual_target(target)) values.emplace_back(value.time, value.value);
+        return values;
+    };
+    EXPECT_EQ(fastest_start, 2);
+    EXPECT_EQ(taken({}), Values{});
+    EXPECT_EQ(taken({{0, 1}, {0.01, 3}}),
+              (Values{{0, 1}, {0.01, 3}}));  // what is asked for by keyframes stays
+    EXPECT_EQ(taken({{0, 3}}), (Values{{0, 1}, {1, 3}}));
+    EXPECT_EQ(taken({{0.5, 2}}), (Values{{0, 1}, {0.5, 2}}));
+    EXPECT_EQ(taken({{0, 0.5}, {1, 0.5}, {2, 1}}), (Values{{0, 1}, {0.25, 0.5}, {1, 0.5}, {2, 1}}));
+    // It meets a ramp of 1 a second from 2 on at 1 + 2 t = 2 + t.
+    EXPECT_EQ(taken({{0, 2}, {3, 5}}), (Values{{0, 1}, {1, 3}, {3, 5}}));
+    // One of 4 a second it does not meet before that ends, at 1 s with 6; 5 later, by 2 a second, at 2.5 s.
+    EXPECT_EQ(taken({{0, 2}, {1, 6}}), (Values{{0, 1}, {1, 3}, {2.5, 6}}));
+}
+
+TEST(VolumeTarget, ThatBeginsElsewhereDoesNotThrowTheBody)
+{
+    for (const double value : {0.2, 3.0}) {
+        BodyOptions options;
+        options.volume.target = {{0, value}};
+        Cloth body = ball(5, options);
+        body.position = {0, 2, 0};
+        Scene scene;
+        scene.method = Method::volume;
+        scene.add(body);
+        scene.add(Plane{});
+        Simulation simulation(scene, test::on(Backend::cpu));
+        EXPECT_EQ(simulation.warnings().size(), 1u);
+        for (int frame = 0; frame < 75; ++frame) {
+            simulation.advance(1 / 60.0);
+            double highest = 0;
+            for (const Vec3& x : simulation.positions()) highest = std::max(highest, double{x.y});
+            EXPECT_LT(highest, 2 + 0.5 * std::cbrt(value) + 0.3)
+                << value;  // m: no higher than it began, but for its size
+        }
+        EXPECT_NEAR(simulation.report().bodies.at(0).ratio, value, 1e-3);
+        EXPECT_LE(simulation.report().volume.error_max, 1e-3);
+    }
+}
+
+TEST(VolumeTarget, ThatChangesFastIsWarnedOf)
+{
+    BodyOptions options;
+    options.volume.target = {{0, 1}, {1, 2.9}};
+    EXPECT_TRUE(Simulation(free_scene(ball(3, options)), test::on(Backend::cpu)).warnings().empty());
+    options.volume.target = {{0, 1}, {1, 1}, {1.1, 2.9}};
+    const auto warnings = Simulation(free_scene(ball(3, options)), test::on(Backend::cpu)).warnings();
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].find("changes by 19 a second from 1 s on"), std::string::npos) << warnings[0];
+}
+
 TEST(VolumePressure, PushesEveryNodeOutwardByItsShareOfTheArea)
 {
     BodyOptions options;
@@ -380,7 +437,7 @@ TEST(VolumeWeights, ComeFromAPropertyOfTheVertices)
     std::ofstream(folder / "scene.json") << R"({"pliant": 1, "method": "volume", "gravity": [0, 0, 0],
         "time": {"dt": 1e-3, "substeps": 1},
         "bodies": [{"mesh": {"file": "ball.ply", "weights": "give"}, "node_mass": 1, "damping": 0,
-                    "springs": {"stiffness": 0, "damping": 0}, "volume": {"target": [{"time": 0, "value": 1.1}]}}]})";
+                    "springs": {"stiffness": 0, "damping": 0}, "volume": {"target": [{"time": 0, "value": 1}, {"time": 1e-3, "value": 1.1}]}}]})";
     const Scene scene = read_scene((folder / "scene.json").string());
     Simulation simulation(scene, test::on(Backend::cpu));
     simulation.advance(1e-3);

@@ -28,8 +28,9 @@ int check_scene(const std::string& name, const std::vector<std::string>& overrid
     if (std::isfinite(simulation.stable_step()))
         std::printf("  the largest step that is certainly stable is %.4g ms\n",
                     1000 * simulation.stable_step());
-    const std::string warning = simulation.stability_warning();
-    std::printf("%s\n", warning.empty() ? "the scene is good" : ("warning: " + warning).c_str());
+    const std::vector<std::string> warnings = simulation.warnings();
+    for (const std::string& warning : warnings) std::printf("warning: %s\n", warning.c_str());
+    if (warnings.empty()) std::printf("the scene is good\n");
     return 0;
 }
 

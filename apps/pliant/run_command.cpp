@@ -139,10 +139,8 @@ public:
 private:
     void say_start()
     {
-        const std::string warning = simulation_.stability_warning();
-        if (!warning.empty()) std::fprintf(stderr, "warning: %s\n", warning.c_str());
-        const std::string resolution = simulation_.resolution_warning();
-        if (!resolution.empty()) std::fprintf(stderr, "warning: %s\n", resolution.c_str());
+        for (const std::string& warning : simulation_.warnings())
+            std::fprintf(stderr, "warning: %s\n", warning.c_str());
         if (!pictures_.refusal().empty())
             std::fprintf(stderr, "warning: the run goes on without pictures: %s\n",
                          pictures_.refusal().c_str());
@@ -159,6 +157,7 @@ private:
     {
         Progress progress(frames_, options_.quiet);
         const Report& report = simulation_.report();
+        summary_.begin(report);
         if (statistics_) statistics_->add(report, 0);
         if (cache_) cache_->add(simulation_, 0);
         pictures_.take(0, false);
@@ -169,7 +168,7 @@ private:
             if (report.device_lost) break;
             summary_.add_frame(report);
             if (statistics_) statistics_->add(report, 1000 * (report.wall_seconds - wall_before));
-            if (!report.finite) break;
+            if (!report.finite || has_diverged(report.measures)) break;
             if (cache_) cache_->add(simulation_, frame);
             last = frame == frames_ ||
                    InterruptGuard::signal_number() != 0;  // asked once, as a Ctrl-C may come at any time
@@ -216,8 +215,8 @@ private:
         pictures_.finish();
         if (!options_.summary_file.empty())
             summary_.write(options_.summary_file, simulation_, seconds_since(start_));
-        if (!report.finite) throw Error(ErrorKind::diverged, divergence());
-        warn_of_what_is_not_solved();
+        if (!report.finite || has_diverged(report.measures)) throw Error(ErrorKind::diverged, divergence());
+        warn_at_end();
         if (!options_.quiet) say_end();
         const int interrupted = InterruptGuard::signal_number();
         if (interrupted)
@@ -242,36 +241,23 @@ private:
         const Report& report = simulation_.report();
         const double frame = 1 / scene_.time.frame_rate;
         const double safe = std::min(simulation_.stable_step(), 0.5 * simulation_.step_length());
-        return "the run diverged: in frame " + std::to_string(report.bad_frame) + " node " +
-               std::to_string(report.bad_node) + " of cloth '" + scene_.cloth(report.bad_cloth).name +
-               "' is no longer finite; take smaller steps, at least " +
+        const std::string what = report.finite
+                                     ? "in frame " + std::to_string(report.frames) + " springs are " +
+                                           formatted("%.3g", 1 + report.measures.max_stretch) +
+                                           " times as long as at rest"
+                                     : "in frame " + std::to_string(report.bad_frame) + " node " +
+                                           std::to_string(report.bad_node) + " of cloth '" +
+                                           scene_.cloth(report.bad_cloth).name + "' is no longer finite";
+        return "the run diverged: " + what + "; take smaller steps, at least " +
                std::to_string(static_cast<long long>(std::ceil(frame / safe))) +
                " substeps per frame (--set time.substeps=N), or softer springs or heavier nodes";
     }
 
-    /// What a step leaves unsolved is a part of what inertia and gravity ask of it; as much as that says
-    /// nothing of the motion any more.
-    void warn_of_what_is_not_solved() const
+    void warn_at_end() const
     {
+        for (const std::string& warning : summary_.warnings(simulation_))
+            std::fprintf(stderr, "warning: %s\n", warning.c_str());
         const SolverReport& solver = simulation_.report().solver;
-        if (!solver.used()) return;
-        if (!solver.is_solved())
-            std::fprintf(stderr,
-                         "warning: steps were not solved: the largest residual is %.3g of what inertia and "
-                         "gravity ask of a step; take more substeps (--set time.substeps=N) or iterations "
-                         "(--set newton_multigrid.newton_iterations=N)\n",
-                         solver.residual_max);
-        double limit = 0;
-        for (std::size_t c = 0; c < scene_.cloth_count(); ++c) {
-            const Springs& springs = scene_.cloth(c).springs;
-            limit = std::max({limit, springs.structural.limit, springs.shear.limit});
-        }
-        constexpr double room = 0.05;
-        if (scene_.method == Method::constraint && summary_.max_stretch_peak() > limit + room)
-            std::fprintf(stderr,
-                         "warning: constraints were stretched by %.3g %%: pins and colliders pull the cloth "
-                         "further than it reaches, or faster than a step can follow\n",
-                         100 * summary_.max_stretch_peak());
         if (solver.frames_cut > 0 && !options_.quiet)
             std::printf("%llu frames were taken again in shorter steps: %llu steps more in all\n",
                         static_cast<unsigned long long>(solver.frames_cut),

@@ -176,6 +176,8 @@ struct State {
     /// anew, which is right where nodes are put somewhere else.
     std::vector<std::vector<float>> memory = {};
     double step = 0;  ///< s, the length of the last steps, whose forces are remembered; 0 before the first
+    /// By collider: 1 while nodes that were found inside are let out; empty, and it is found out anew.
+    std::vector<std::uint8_t> lets_rise = {};
 };
 
 /// What a spring is there for.
@@ -206,10 +208,12 @@ public:
     Simulation(Simulation&&) noexcept;
     Simulation& operator=(Simulation&&) noexcept;
 
-    /// Advances by `duration` seconds in equal steps: the scene's substeps when it sets them (then a step
-    /// lasts 1 / (frame_rate substeps) and `duration` is rounded to whole steps, at least one), else as many
-    /// as stability asks for. Never throws. Once a node is not finite or the device is lost (see report())
-    /// nothing moves any more but time(), so that loops come to their end.
+    /// Advances by `duration` seconds in equal steps: the scene's substeps when it sets them, else as many as
+    /// stability asks for. With substeps a step lasts 1 / (frame_rate substeps), and `duration` is rounded to
+    /// whole steps, which may be none; the next call makes up for it, so that time() is never off by more
+    /// than half a step from the sum of all durations. set_state() drops that rest. Never throws. Once a node
+    /// is not finite or the device is lost (see report()) nothing moves any more but time(), so that loops
+    /// come to their end.
     void advance(double duration) noexcept;
 
     /// Pulls a node towards `target` (m) from the next step on, by a spring of `stiffness` (N/m, 0 to 1e9)
@@ -287,6 +291,9 @@ public:
     std::string resolution_warning() const;
     /// A sentence when the scene's step is larger than `stable_step`, else empty.
     std::string stability_warning() const;
+    /// All that there is to warn of before the first step, a sentence each: both of these, nodes that start
+    /// inside colliders, and volumes that change too fast.
+    std::vector<std::string> warnings() const;
 
     /// The buffers of a cloth (of a soft body there are none) on the device, up to date and idle until the
     /// next advance(), which submits to queue 0 of the family; nothing unless the backend is vulkan. Throws

@@ -108,6 +108,29 @@ double value_at(const std::vector<TimedValue>& keyframes, double time, double ot
     return before.value + part * (after->value - before.value);
 }
 
+std::vector<TimedValue> gradual_target(const std::vector<TimedValue>& target)
+{
+    if (target.empty() || value_at(target, 0, 1) == 1) return target;
+    std::vector<TimedValue> gradual = {{0, 1}};
+    for (std::size_t k = 0;; ++k) {  // the stretch up to target[k], and the one behind the last
+        const bool last = k == target.size();
+        if (!last && !(target[k].time > 0)) continue;
+        const auto [time, value] = gradual.back();
+        const double ahead = value_at(target, time, 1) - value;
+        const double slope =
+            last ? 0 : (target[k].value - value_at(target, time, 1)) / (target[k].time - time);
+        const double rate = std::copysign(fastest_start, ahead);
+        const double meets = time + ahead / (rate - slope);
+        if (meets > time && (last || meets <= target[k].time)) {
+            gradual.push_back({meets, value_at(target, meets, 1)});
+            for (; k < target.size(); ++k)
+                if (target[k].time > meets) gradual.push_back(target[k]);
+            return gradual;
+        }
+        gradual.push_back({target[k].time, value + rate * (target[k].time - time)});
+    }
+}
+
 double sixfold_volume(std::span<const Vec3> positions, std::span<const Triangle> triangles)
 {
     if (positions.empty()) return 0;

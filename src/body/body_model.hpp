@@ -65,6 +65,11 @@ struct BodyModel {
 /// A value of keyframes at a time; `otherwise` where there are none.
 double value_at(const std::vector<TimedValue>& keyframes, double time, double otherwise);
 
+/// V / V0 a second: as fast as a body goes to the volume that it is given to begin with.
+constexpr double fastest_start = 2;
+/// A target as a body follows it: it starts at 1, at rest, and goes from there to what it is given.
+std::vector<TimedValue> gradual_target(const std::vector<TimedValue>& target);
+
 /// 6 V of triangles, exact but for the rounding of doubles, about the first vertex.
 double sixfold_volume(std::span<const Vec3> positions, std::span<const Triangle> triangles);
 

@@ -297,6 +297,24 @@ bool ClothModel::remembers(SpringClass of) const
            limited[static_cast<std::size_t>(of)].beyond > 0;
 }
 
+bool ClothModel::does_not_stretch(double step_length) const
+{
+    for (const SpringClass of : {SpringClass::structural, SpringClass::shear}) {
+        const LimitedSprings& springs_of = limited[static_cast<std::size_t>(of)];
+        const bool is_measured = springs_of.exists || is_sheet();
+        if (is_measured && !(remembers(of) && springs_of.beyond > softest_limit(step_length))) return false;
+    }
+    return remembers_any();
+}
+
+double ClothModel::largest_limit() const
+{
+    double most = 0;
+    for (const SpringClass of : {SpringClass::structural, SpringClass::shear})
+        if (remembers(of)) most = std::max(most, limited[static_cast<std::size_t>(of)].limit);
+    return most;
+}
+
 // A pull runs through n springs in a row at sqrt(k / m) springs a second. By one update a step it has to be
 // through in about half of one, k = 4.6 m n^2 / dt^2; below a quarter of that the update itself is unstable
 // (docs/physics.md). What colliders hold up is pulled at from all sides, and wants four times as much. In

@@ -110,6 +110,10 @@ public:
     /// laws/limit.law.glsl.
     bool remembers(SpringClass of) const;
     bool remembers_any() const { return remembers(SpringClass::structural) || remembers(SpringClass::shear); }
+    /// Whether all springs whose stretch is measured are such limits, and softer in steps of so many seconds
+    /// than by their compliance; and the largest limit.
+    bool does_not_stretch(double step_length) const;
+    double largest_limit() const;
     /// N/m: the softest stiffness by which such a limit is made right, in steps of so many seconds; and of
     /// springs of a class, with their compliance.
     double softest_limit(double step_length) const;

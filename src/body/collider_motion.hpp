@@ -37,9 +37,10 @@ struct PlacedCollider {
     double radius = 0;  ///< m; of sphere and capsule
     double friction = 0;
     ContactResponse response = ContactResponse::coulomb;
-    Vec3d velocity;      ///< m/s, of the centre
-    Vec3d spin;          ///< rad/s
-    bool moves = false;  ///< has keyframes
+    Vec3d velocity;          ///< m/s, of the centre
+    Vec3d spin;              ///< rad/s
+    bool moves = false;      ///< has keyframes
+    bool lets_rise = false;  ///< nodes that have sunk into it are let out slowly
 };
 PlacedCollider placed_at(const Collider& collider, double time);
 

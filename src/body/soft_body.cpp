@@ -65,6 +65,7 @@ void ClothModel::build_body(const Cloth& cloth, const Scene& scene)
     part.node_count = count;
     part.volume = sixfold_volume(positions, triangles_) / 6;
     part.options = cloth.body->volume;
+    part.options.target = gradual_target(part.options.target);
     for (const Vec3& x : positions) part.centre = part.centre + to_double(x) * (1.0 / count);
     body->constrained = scene.method == Method::volume && cloth.body->volume.constraint;
     body->has_pressure = std::any_of(part.options.pressure.begin(), part.options.pressure.end(),

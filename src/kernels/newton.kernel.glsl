@@ -140,6 +140,21 @@ KERNEL mask is_number(real a, int k)
     return both(a > real(float(k)) - 0.5f, real(float(k)) + 0.5f > a);
 }
 
+// How deep a node was in a collider as the step began, beyond what contact leaves one at, m. Such a node is not put on the
+// surface at once: for this step the surface is as deep as the node was, and step_begin lets it rise.
+KERNEL real sunk_in(int k, int o, vec3 q)
+{
+    if (collider(k).response != 2) return real(0.0f);
+    vec3 carried = collider_surface_velocity(collider(k), q) * step_of(o);
+    return sunk_depth(thickness() - collider_gap(collider(k), q + carried).w);
+}
+KERNEL vec4 gap_in_step(int k, int o, vec3 q, vec3 t)
+{
+    vec4 contact = collider_gap(collider(k), q + t);
+    contact.w = contact.w + sunk_in(k, o, q);
+    return contact;
+}
+
 KERNEL Contact contact_at(int o, vec3 q, vec3 t)
 {
     Contact c;
@@ -151,12 +166,13 @@ KERNEL Contact contact_at(int o, vec3 q, vec3 t)
     real before = load(plane_press, o) * reciprocal(choose(k_node > 0.0f, k_node, real(1.0f)));
     for (int k = 0; k < collider_count(); ++k) {
         vec4 contact = collider_gap(collider(k), q + t);
+        real sunk = sunk_in(k, o, q);
         vec3 n = xyz(contact);
-        real inside = thickness() - contact.w;
+        real inside = thickness() - (contact.w + sunk);
         real depth = largest(inside + choose(is_number(touched, k + 1), before, real(0.0f)), real(0.0f));
         real stiffness = choose(depth > 0.0f, k_node, real(0.0f));
         real press = stiffness * depth;
-        mask most = press > c.press;
+        mask most = choose(sunk > 0.0f, real(0.0f), press) > c.press;
         c.press = choose(most, press, c.press);
         c.touched = choose(most, real(float(k + 1)), c.touched);
         c.depth = choose(most, inside, c.depth);
@@ -243,6 +259,20 @@ KERNEL vec3 wind_in_step(int o)
     return force + change * choose(is_smooth, real(1.0f), real(0.0f));
 }
 
+// Where a node that has sunk into colliders is taken by what lets it rise (`rising_speed` of laws/contact.law.glsl).
+KERNEL vec3 risen(int o, vec3 q, vec3 aim, real step, real inverse_step)
+{
+    for (int k = 0; k < collider_count(); ++k) {
+        vec3 carried = collider_surface_velocity(collider(k), q) * step;
+        vec4 contact = collider_gap(collider(k), q + carried);
+        real depth = thickness() - contact.w;
+        real sunk = sunk_in(k, o, q), speed = dot3(aim - carried, xyz(contact)) * inverse_step;
+        real gained = choose(sunk > 0.0f, rising_speed(speed, depth, step) - speed, real(0.0f));
+        aim = aim + xyz(contact) * (gained * step);
+    }
+    return aim;
+}
+
 // The start of a step. Friction knows the normal force that the last step ended with; of a node that touches a collider
 // without having been found there by a step, what its depth makes of it.
 KERNEL void step_begin(int o)
@@ -269,6 +299,7 @@ KERNEL void step_begin(int o)
         aim = (pulled + push) * (step * reciprocal(weight));
         mass = mass * weight;
     }
+    if (collider_count() > 0) aim = risen(o, q, aim, step, inverse_step);
     aim = choose(is_free, aim, start);
     store3(plane_q, o, q);
     store3(plane_t, o, start);
@@ -286,6 +317,7 @@ KERNEL void step_begin(int o)
         vec4 contact = collider_gap(collider(k), q + carried);
         real found = k_node * largest(thickness() - contact.w, real(0.0f));
         found = choose(touched > 0.0f, choose(is_number(touched, k + 1), press, real(0.0f)), found);
+        found = choose(sunk_in(k, o, q) > 0.0f, real(0.0f), found);
         g = with_collider(g, collider(k), xyz(contact), carried, found);
     }
     leave_grip(o, g);
@@ -336,7 +368,7 @@ KERNEL vec3 stopped_by_colliders(int o, vec3 t, vec3 x)
     real give = reciprocal(choose(k_node > 0.0f, k_node, real(1.0f)));
     for (int k = 0; k < collider_count(); ++k) {
         real slip = choose(is_number(touched, k + 1), load(plane_press, o) * give, real(0.0f));
-        vec4 before = collider_gap(collider(k), q + t), after = collider_gap(collider(k), q + t + x);
+        vec4 before = gap_in_step(k, o, q, t), after = gap_in_step(k, o, q, t + x);
         mask touches = thickness() - before.w + slip > 0.0f;
         real carried = largest(largest(slip, dot3(xyz(after), ahead) * (real(0.0f) - mass * give)), real(0.0f));
         real excess = largest(thickness() - after.w + slip - carried, real(0.0f));

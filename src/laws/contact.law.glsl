@@ -5,7 +5,7 @@
 struct Collider
 {
     int kind;           // 0 sphere, 1 plane, 2 box, 3 capsule
-    int response;       // 0 Coulomb, 1 as the paper prints it
+    int response;       // 0 Coulomb, 1 as the paper prints it, 2 Coulomb, and nodes that have sunk into it rise
     vec3 centre;        // m; a plane's point
     vec3 axis_x;        // unit vectors of a box; axis_y is a plane's normal and a capsule's direction
     vec3 axis_y;
@@ -117,6 +117,24 @@ LAW vec3 contact_position_paper(vec3 before, vec3 n_before, real gap_before)
     return before - n_before * gap_before;
 }
 
+// How far a depth, m, is beyond one that contact leaves a node at. Where nodes start as deep as that, or a collider is put over
+// them, its response is 2 until they are out.
+LAW real sunk_depth(real depth)
+{
+    return largest(depth - 0.0009765625f, real(0.0f));
+}
+
+// The speed outward, m/s, of such a node after a step of dt, from the one that it would have. It is let out by at most 1000 m/s2, up
+// to 8/s of its depth and 1 m/s, so that it arrives at the surface without speed, and springs that pull harder keep it where it is:
+//   r' = max(r, min(r + 1000 dt, 8 depth, 1))
+// What puts it on the surface at once stretches the springs around it many times over, and they throw the cloth away.
+LAW real rising_speed(real speed, real depth, real dt)
+{
+    real wanted = 8.0f * depth, faster = speed + 1000.0f * dt;
+    wanted = choose(wanted > 1.0f, real(1.0f), wanted);
+    return largest(speed, choose(faster > wanted, wanted, faster));
+}
+
 struct Motion
 {
     vec3 position;  // m
@@ -142,6 +160,14 @@ LAW Motion contact_step(Motion now, Motion next, Collider collider, real thickne
         vec3 surface_velocity = collider_surface_velocity(collider, next.position);
         after.velocity = contact_velocity(next.velocity, surface_velocity, n, collider.friction);
         after.position = contact_position(next.position, n, gap, next.velocity, after.velocity, dt);
+        if (collider.response == 2) {
+            real before = thickness - collider_gap(collider, now.position + surface_velocity * dt).w;
+            mask sunk = sunk_depth(before) > 0.0f;
+            real speed = dot3(next.velocity - surface_velocity, n), risen = rising_speed(speed, real(0.0f) - gap, dt);
+            vec3 rising = after.velocity + n * (largest(risen, real(0.0f)) - largest(speed, real(0.0f)));
+            after.velocity = choose(sunk, rising, after.velocity);
+            after.position = choose(sunk, next.position + (rising - next.velocity) * dt, after.position);
+        }
     }
     next.position = choose(touching, after.position, next.position);
     next.velocity = choose(touching, settled_velocity(after.velocity), next.velocity);

@@ -36,11 +36,13 @@ LAW Blocked blocked_by_nothing()
     return blocked;
 }
 
-// With one more collider. `position` is the predicted one, as `contact_step` is given it.
+// With one more collider. `position` is the predicted one, as `contact_step` is given it. A node that rises out of a collider is
+// not held: its speed along the normal is a part of what the volume changes by.
 LAW Blocked blocked_with(Blocked blocked, Collider collider, vec3 position, real thickness, real inverse_mass)
 {
     vec4 contact = collider_gap(collider, position);
     mask touching = both(contact.w - thickness < 0.0f, inverse_mass > 0.0f);
+    if (collider.response == 2) touching = both(touching, real(0.0f) >= sunk_depth(thickness - contact.w));
     blocked.normal = choose(touching, xyz(contact), blocked.normal);
     blocked.count = blocked.count + choose(touching, real(1.0f), real(0.0f));
     return blocked;

@@ -134,6 +134,46 @@ std::map<std::string, double> RunSummary::values(Simulation& simulation) const
             {"volume_ratio_final", ratio}};
 }
 
+bool has_diverged(const FrameMeasures& measures) { return measures.max_stretch > 1000; }
+
+std::vector<std::string> RunSummary::warnings(const Simulation& simulation) const
+{
+    std::vector<std::string> sentences;
+    const auto add = [&](const char* format, double value) {
+        char text[320];
+        std::snprintf(text, sizeof text, format, value);
+        sentences.push_back(text);
+    };
+    const Scene& scene = simulation.scene();
+    const SolverReport& solver = simulation.report().solver;
+    if (solver.used() && !(solver.residual_max <= 1))
+        add("steps were not solved: the largest residual is %.3g of what inertia and gravity ask of a step; "
+            "take "
+            "more substeps (--set time.substeps=N) or iterations (--set "
+            "newton_multigrid.newton_iterations=N)",
+            solver.residual_max);
+    double limit = 0, thickness = 0;
+    for (std::size_t c = 0; c < scene.cloth_count(); ++c) {
+        const Springs& springs = scene.cloth(c).springs;
+        limit = std::max({limit, springs.structural.limit, springs.shear.limit});
+        thickness = std::max(thickness, scene.cloth(c).thickness);
+    }
+    constexpr double room = 0.05;
+    if (solver.used() && scene.method == Method::constraint && max_stretch_peak_ > limit + room)
+        add("constraints were stretched by %.3g %%: pins and colliders pull the cloth further than it "
+            "reaches, or "
+            "faster than a step can follow",
+            100 * max_stretch_peak_);
+    constexpr double noticeable = 0.005;  // m, beyond the thickness
+    if (max_penetration_ > std::max(thickness + noticeable, start_penetration_))
+        add("nodes were up to %.3g m inside colliders: the cloth is pulled or pushed there harder than "
+            "contact holds, "
+            "or faster than a step can follow; take more substeps (--set time.substeps=N), or give the cloth "
+            "room",
+            max_penetration_ - thickness);
+    return sentences;
+}
+
 void RunSummary::write(const std::filesystem::path& file, Simulation& simulation, double wall_seconds) const
 {
     const auto numbers = values(simulation);
@@ -163,6 +203,9 @@ void RunSummary::write(const std::filesystem::path& file, Simulation& simulation
         summary["volume_misses"] = simulation.report().volume.misses;
     }
     summary["finite"] = simulation.report().finite;
+    auto all = simulation.warnings();
+    for (std::string& sentence : warnings(simulation)) all.push_back(std::move(sentence));
+    summary["warnings"] = all;
     summary["state_hash"] = hash_text(simulation.state_hash());
     const SolverReport& solver = simulation.report().solver;
     if (solver.used()) summary["solver"] = solver_summary(simulation.scene(), solver);

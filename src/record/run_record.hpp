@@ -30,8 +30,12 @@ private:
 /// Gathers what the summary says beyond the last frame.
 class RunSummary {
 public:
+    /// The state before the first step.
+    void begin(const Report& report) { start_penetration_ = report.measures.max_penetration; }
     void add_frame(const Report& report);
 
+    /// What there is to warn of after a run, a sentence each.
+    std::vector<std::string> warnings(const Simulation& simulation) const;
     /// The keys of the summary that are numbers, by name; for checks and for the JSON.
     std::map<std::string, double> values(Simulation& simulation) const;
     /// Writes the summary as JSON; `wall_seconds` is the whole run's, with pictures and files.
@@ -48,8 +52,12 @@ private:
     };
     std::vector<FrameStretch> frames_;
     double max_stretch_peak_ = 0;
-    double max_penetration_ = 0;
+    double max_penetration_ = 0, start_penetration_ = 0;
 };
+
+/// Whether springs are so long that a run has plainly diverged, though its numbers are finite: a thousand
+/// times their length at rest, which no pin or collider of a scene that means something asks of them.
+bool has_diverged(const FrameMeasures& measures);
 
 /// The scene's checks that do not hold, one sentence each; empty when all do.
 std::vector<std::string> failed_checks(const Scene& scene, const std::map<std::string, double>& values);

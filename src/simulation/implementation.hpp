@@ -40,8 +40,10 @@ public:
     void advance(double duration);
     void run_steps(std::uint32_t steps, double step);
     void run_program(const Program& program, std::uint32_t steps, double step);
-    /// Takes the steps of a cloth that were not solved anew, in shorter ones, until they are.
-    void cut_steps(std::uint32_t model, std::uint32_t steps, double step, std::uint32_t from_parity);
+    /// Takes the steps of a cloth that were not solved, or stretched its limits at once, anew in shorter
+    /// ones.
+    void cut_steps(std::uint32_t model, std::uint32_t steps, double step, std::uint32_t from_parity,
+                   double stretch_before);
     Kept kept(std::uint32_t model, std::uint32_t steps, std::uint32_t from_parity) const;
     /// Of limits and contact, that they are of steps of this length from now on.
     void fit_memory(std::uint32_t model, double step);
@@ -59,6 +61,8 @@ public:
     void stop(std::string_view reason) noexcept;
 
     void place_colliders(std::uint32_t steps, double step);
+    /// Colliders that are somewhere else all at once let nodes rise, too.
+    void find_jumps(std::uint32_t steps, double step);
     void place_attached(std::uint32_t steps, double step);
     /// The volumes and pressures of bodies at the end of each step.
     void place_goals(std::uint32_t steps, double step);
@@ -152,7 +156,11 @@ public:
     double loss_sum = 0;
     Report report;
     double newton_sum = 0, iterations_sum = 0, active_sum = 0;  ///< of the solver, over the run
-    double idle_seconds = 0;                                    ///< asked for after the run had ended
+    /// By collider: 1 while nodes that started in it, or that it was put over, are on their way out.
+    std::vector<std::uint8_t> lets_rise;
+    std::vector<std::string> start_warnings;  ///< what there is to say of the scene's start
+    double owed_seconds = 0;  ///< asked for and not stepped yet: at most half a step, either way
+    double idle_seconds = 0;  ///< asked for after the run had ended
 };
 
 }  // namespace pliant

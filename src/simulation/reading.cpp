@@ -5,6 +5,7 @@
 
 #include "simulation/implementation.hpp"
 #include "simulation/solver_memory.hpp"
+#include "simulation/start_warnings.hpp"
 #include "solve/mass_spring.hpp"
 #include "solve/newton_multigrid.hpp"
 
@@ -12,7 +13,7 @@ namespace pliant {
 
 State Simulation::Implementation::state()
 {
-    State now{report.simulated_seconds, {}, {}, memory_step};
+    State now{report.simulated_seconds, {}, {}, memory_step, lets_rise};
     for (std::size_t c = 0; c < places.size(); ++c) {
         const auto x = values(c, Resource::position), v = values(c, Resource::velocity);
         now.cloths.push_back({{x.begin(), x.end()}, {v.begin(), v.end()}});
@@ -33,6 +34,8 @@ void Simulation::Implementation::set_state(const State& state)
                     "Simulation::set_state: the state has other cloths, or other numbers of nodes, than "
                     "the scene");
     release();
+    const bool knows_who_rises = state.lets_rise.size() == scene.colliders.size();
+    lets_rise = knows_who_rises ? state.lets_rise : std::vector<std::uint8_t>(scene.colliders.size());
     for (std::uint32_t m = 0; m < models.size(); ++m) {
         std::vector<Vec3> x(models[m].node_count()), v(models[m].node_count());
         for (std::size_t c = 0; c < places.size(); ++c) {
@@ -49,6 +52,7 @@ void Simulation::Implementation::set_state(const State& state)
         for (std::size_t i = 0; i < x.size(); ++i)
             if (!(models[m].inverse_mass(i) > 0) && !moved[i]) v[i] = {};  // a pin that stands still
         runner->write(m, x, v);
+        if (!knows_who_rises) find_sunk(scene, models[m], x, state.time, lets_rise);
         // Of another method or solver, it says nothing here.
         const bool knows = m < state.memory.size() && state.memory[m].size() == solver_memory_size(models[m]);
         put_solver_memory(*runner, models[m], m, knows ? state.memory[m] : std::vector<float>{});
@@ -56,7 +60,7 @@ void Simulation::Implementation::set_state(const State& state)
     memory_step = state.step;
     report.simulated_seconds = state.time;
     report.finite = true;
-    idle_seconds = 0;
+    idle_seconds = owed_seconds = 0;
     ++state_number;
     measure();
     take_measures();

@@ -1,6 +1,7 @@
 #include "pliant/simulation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -229,6 +230,16 @@ std::string Simulation::stability_warning() const
            text_of_seconds(stable) + " and the run may diverge: use at least " +
            std::to_string(static_cast<long long>(std::ceil(frame / stable))) +
            " substeps per frame (time.substeps), softer springs or heavier nodes";
+}
+
+std::vector<std::string> Simulation::warnings() const
+{
+    std::vector<std::string> sentences;
+    for (std::string& sentence : std::array{stability_warning(), resolution_warning()})
+        if (!sentence.empty()) sentences.push_back(std::move(sentence));
+    sentences.insert(sentences.end(), implementation_->start_warnings.begin(),
+                     implementation_->start_warnings.end());
+    return sentences;
 }
 
 std::optional<DeviceBuffers> Simulation::device_buffers(std::size_t cloth)

@@ -9,6 +9,7 @@
 #include "pliant/extremes.hpp"
 #include "simulation/implementation.hpp"
 #include "simulation/solver_memory.hpp"
+#include "simulation/start_warnings.hpp"
 #include "solve/mass_spring.hpp"
 
 namespace pliant {
@@ -77,6 +78,12 @@ void Simulation::Implementation::make_models()
         ClothPlace place{static_cast<std::uint32_t>(models.size()), 0, model.node_count(), 0, 0.0f,
                          std::exchange(model.node_of_vertex, {})};
         if (model.is_body()) report.bodies.push_back({c});
+        const auto warn = [&](const std::vector<std::string>& sentences) {
+            start_warnings.insert(start_warnings.end(), sentences.begin(), sentences.end());
+        };
+        warn(starts_inside(scene, scene.cloth(c), model));
+        find_sunk(scene, model, model.positions, 0, lets_rise);
+        if (model.is_body() && model.body->constrained) warn(fast_targets(scene.cloth(c)));
         const auto host = std::find_if(models.begin(), models.end(),
                                        [&](const ClothModel& other) { return other.can_take(model); });
         if (host == models.end()) {
@@ -133,7 +140,7 @@ std::pair<std::uint64_t, double> Simulation::Implementation::steps_of(double dur
     };
     if (scene.time.substeps > 0) {
         const double step = 1 / (scene.time.frame_rate * scene.time.substeps);
-        return divided(std::max(1.0, std::round(duration / step)), step);
+        return divided(std::max(0.0, std::round(duration / step)), step);
     }
     if (stepped_method(scene) ==
         Method::constraint) {  // implicit: a step is as long as a frame unless asked for
@@ -158,7 +165,9 @@ void Simulation::Implementation::refuse_too_many_steps() const
 void Simulation::Implementation::advance(double duration)
 {
     const auto start = std::chrono::steady_clock::now();
-    const auto [steps, step] = steps_of(duration);
+    const auto [steps, step] = steps_of(duration + owed_seconds);
+    // Whole steps do not add up to what was asked for; the rest is asked for with the next call.
+    owed_seconds = scene.time.substeps > 0 ? duration + owed_seconds - static_cast<double>(steps) * step : 0;
     // A long stretch runs in pieces, so that programs stay short and few.
     const std::uint64_t node_count = total(&ClothModel::node_count);
     const std::uint64_t most =
@@ -181,10 +190,12 @@ void Simulation::Implementation::run_steps(std::uint32_t steps, double step)
     memory_step = step;
     const Program& program = frame_program(steps);
     const std::uint32_t from_parity = parity;
+    std::vector<double> stretches;
+    for (std::uint32_t m = 0; m < models.size(); ++m) stretches.push_back(runner->measures(m).max_stretch);
     run_program(program, steps, step);
     parity = program.parity_after;
     for (std::uint32_t m = 0; m < models.size(); ++m)
-        if (is_implicit(models[m])) cut_steps(m, steps, step, from_parity);
+        if (is_implicit(models[m])) cut_steps(m, steps, step, from_parity, stretches[m]);
     report.simulated_seconds = on_frame(report.simulated_seconds + steps * step, steps * step);
     report.steps += steps;
     if (uses_solver(stepped_method(scene))) count_solves();
@@ -213,20 +224,32 @@ void Simulation::Implementation::fit_memory(std::uint32_t model, double step)
 }
 
 void Simulation::Implementation::cut_steps(std::uint32_t model, std::uint32_t steps, double step,
-                                           std::uint32_t from_parity)
+                                           std::uint32_t from_parity, double stretch_before)
 {
     // An odd number of parts, so that the state ends in the same copy as those of the other cloths.
     constexpr std::uint32_t parts = 3;
-    double residual = solver_number(model, scalar_residual_max);
+    // The force of a limit is a step behind. What pulls at once, as a pin that begins to move, stretches it
+    // by as much as a step is long, more than this.
+    constexpr double at_once = 0.01, helps = 0.8;
+    const bool holds = models[model].does_not_stretch(step);
+    const double limit = models[model].largest_limit();
+    // Cloth that is stretched already cannot reach as far as it is pulled, in steps of any length.
+    const double most = stretch_before < limit + 2 * at_once ? std::max(stretch_before, limit) + at_once
+                                                             : std::numeric_limits<double>::infinity();
+    const auto stretch_now = [&] { return holds ? runner->measures(model).max_stretch : 0; };
+    double residual = solver_number(model, scalar_residual_max), stretch = stretch_now();
     std::uint32_t all_parts = 1;
-    for (std::uint32_t cut = 0;
-         cut < models[model].newton.step_cuts && !(residual <= double{solved_residual}); ++cut) {
+    for (std::uint32_t cut = 0; cut < models[model].newton.step_cuts; ++cut) {
+        const bool is_solved = residual <= double{solved_residual};
+        if (is_solved && !(stretch > most)) break;
         runner->put_back(kept(model, steps, from_parity));
         all_parts *= parts;
         fit_memory(model, step / all_parts);
         run_program(frame_program(steps * all_parts, model), steps * all_parts, step / all_parts);
-        const double before = std::exchange(residual, solver_number(model, scalar_residual_max));
-        if (!(residual < before)) break;  // another cut would not help
+        const double residual_before = std::exchange(residual, solver_number(model, scalar_residual_max));
+        const double longest = std::exchange(stretch, stretch_now());
+        if (is_solved ? !(stretch < helps * longest) : !(residual < residual_before))
+            break;  // another cut would not help
     }
     if (all_parts == 1) return;
     ++report.solver.frames_cut;
@@ -301,12 +324,34 @@ void Simulation::Implementation::stop(std::string_view reason) noexcept
 void Simulation::Implementation::place_colliders(std::uint32_t steps, double step)
 {
     const std::size_t count = scene.colliders.size();
-    if (colliders_rest && placed.size() == count) return;
-    placed.resize(colliders_rest ? count : count * steps);
-    for (std::size_t s = 0; s * count < placed.size(); ++s)
-        for (std::size_t k = 0; k < count; ++k)
-            placed[s * count + k] =
-                placed_at(scene.colliders[k], report.simulated_seconds + static_cast<double>(s + 1) * step);
+    if (!colliders_rest || placed.size() != count) {
+        placed.resize(colliders_rest ? count : count * steps);
+        for (std::size_t s = 0; s * count < placed.size(); ++s)
+            for (std::size_t k = 0; k < count; ++k)
+                placed[s * count + k] = placed_at(
+                    scene.colliders[k], report.simulated_seconds + static_cast<double>(s + 1) * step);
+        if (!colliders_rest && step > 0) find_jumps(steps, step);
+    }
+    for (std::size_t i = 0; i < placed.size(); ++i) placed[i].lets_rise = lets_rise[i % count] != 0;
+}
+
+void Simulation::Implementation::find_jumps(std::uint32_t steps, double step)
+{
+    constexpr double fastest_collider = 100;  // m/s; what is faster jumps, and gives nobody that speed
+    const std::size_t count = scene.colliders.size();
+    const auto length = [](Vec3d a) { return std::sqrt(dot(a, a)); };
+    for (std::size_t k = 0; k < count; ++k) {
+        PlacedCollider before = placed_at(scene.colliders[k], report.simulated_seconds);
+        if (length(before.velocity) > fastest_collider) before.velocity = {};
+        for (std::size_t s = 0; s < steps; ++s) {
+            PlacedCollider& now = placed[s * count + k];
+            if (length(now.velocity) > fastest_collider) now.velocity = {};
+            // A start or a stop within a step moves a collider by no more than its speed does.
+            const double way = step * (length(before.velocity) + length(now.velocity));
+            if (length(now.centre - before.centre) > way + deepest_contact) lets_rise[k] = 1;
+            before = now;
+        }
+    }
 }
 
 void Simulation::Implementation::place_attached(std::uint32_t steps, double step)
@@ -407,6 +452,7 @@ void Simulation::Implementation::take_measures()
     m.mean_stretch = measured_springs > 0 ? stretch_sum / static_cast<double>(measured_springs) : 0;
     if (measured_springs == 0) m.max_stretch = 0;
     report.measures = m;
+    if (m.max_penetration <= deepest_contact) std::fill(lets_rise.begin(), lets_rise.end(), std::uint8_t{0});
     measure_volumes();
     if (m.non_finite > 0 && report.finite) find_bad_node();
 }

@@ -23,7 +23,8 @@ typename Laws<T>::Collider make_collider(const PlacedCollider& placed)
     const auto vector = [&](Vec3d a) { return Vector3<T>{number(a.x), number(a.y), number(a.z)}; };
     typename Laws<T>::Collider collider;
     collider.kind = static_cast<int>(placed.kind);
-    collider.response = static_cast<int>(placed.response);
+    const bool lets_rise = placed.lets_rise && placed.response == ContactResponse::coulomb;
+    collider.response = lets_rise ? 2 : static_cast<int>(placed.response);
     collider.centre = vector(placed.centre);
     collider.axis_x = vector(placed.axes[0]);
     collider.axis_y = vector(placed.axes[1]);
