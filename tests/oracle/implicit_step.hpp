@@ -100,9 +100,10 @@ public:
 private:
     void add_sheet(const SheetOptions& sheet);
     void add_mesh();
-    void add_pair(int i, int j, int between, bool folds, std::function<double(const Point&)> energy,
-                  std::function<Block(const Point&)> block);
-    void add_spring(std::size_t spring_class, int i, int j, int between, double rest, double part);
+    void add_pair(int i, int j, const std::vector<int>& between, bool folds,
+                  std::function<double(const Point&)> energy, std::function<Block(const Point&)> block);
+    void add_spring(std::size_t spring_class, int i, int j, const std::vector<int>& between, double rest,
+                    double part);
     void add_square(std::vector<int> nodes, const std::vector<double>& factors, double weight);
     void add_curvature(std::size_t triangle);
     void add_inertia(const std::vector<double>& masses);

@@ -134,15 +134,20 @@ void MeshTables::add_springs(MeshLanes& of, const SolverLevel& level)
     const std::int32_t first = Hierarchy::offset(level, 0, 0);
     const auto node_places = static_cast<std::size_t>(whole_slices(level.columns) + lanes);
     of.states = keep(std::vector<float>(MeshLanes::state_size * node_places));
-    of.held = make_table(
-                  level.columns,
-                  [&](std::int32_t node, Row& row) {
-                      for_each_pair(level.held_start, node, [&](std::int32_t other, std::int32_t edge) {
-                          row.push_back({2 * edge + (other - first < node ? 1 : 0)});
-                      });
-                  },
-                  [&](std::int32_t) { return Entry{2 * empty_block(level)}; })
-                  .lanes;
+    const auto springs_by_node = [&](std::int32_t table_start) {
+        return make_table(
+                   level.columns,
+                   [&](std::int32_t node, Row& row) {
+                       for_each_pair(table_start, node, [&](std::int32_t other, std::int32_t edge) {
+                           row.push_back({2 * edge + (other - first < node ? 1 : 0)});
+                       });
+                   },
+                   [&](std::int32_t) { return Entry{2 * empty_block(level)}; })
+            .lanes;
+    };
+    of.held = springs_by_node(level.held_start);
+    of.loose = springs_by_node(level.loose_start);
+    if (level.folded > 0) of.folds = weighted(level.folded, level.fold_start, {}, 0, 1, empty_block(level));
     const auto size = static_cast<std::size_t>(whole_slices(level.edges));
     std::vector<std::int32_t> ends[2] = {std::vector<std::int32_t>(size), std::vector<std::int32_t>(size)};
     std::vector<float> classes(size);
@@ -186,7 +191,6 @@ void MeshTables::add_transfers(MeshLanes& of, const SolverLevel& level, const So
     // Behind the nodes there is a record of 0, and behind the blocks an empty one.
     of.children =
         weighted(level.columns, level.children_start, {}, Hierarchy::offset(finer, 0, 0), 1, finer.columns);
-    of.diagonal = weighted(level.columns, level.diagonal_start, {}, 0, 1, empty_block(finer));
 
     // Edges of as many sources side by side, within groups that passes are divided into.
     std::vector<std::int32_t> order(static_cast<std::size_t>(level.edges));

@@ -25,7 +25,7 @@ static_assert(sizeof(SolverLevel) <= level_numbers * sizeof(std::int32_t));
 static_assert(offsetof(SolverLevel, size) == 4 * sizeof(std::int32_t));
 static_assert(offsetof(SolverLevel, edge_ends) == 8 * sizeof(std::int32_t));
 static_assert(offsetof(SolverLevel, held_start) == 10 * sizeof(std::int32_t));
-static_assert(offsetof(SolverLevel, live_edges) == 16 * sizeof(std::int32_t));
+static_assert(offsetof(SolverLevel, folded) == 18 * sizeof(std::int32_t));
 
 /// As the uniform block of shaders/solver.glsl.
 struct SolverBlock {

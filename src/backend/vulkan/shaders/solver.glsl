@@ -13,8 +13,8 @@ struct SolverLevel
 {
     int rows, columns, stride, base, size;
     int edges, edge_base, edge_size, edge_ends, row_start, held_start;
-    int parents_start, children_start, diagonal_start, coupling_start;
-    int live, live_edges;
+    int parents_start, children_start, loose_start, coupling_start;
+    int live, live_edges, fold_start, folded;
 };
 
 // As SolverBlock of solver_buffers.cpp.
@@ -55,7 +55,8 @@ SolverLevel level_at(uint k)
 {
     ivec4 a = solver.levels[6u * k], b = solver.levels[6u * k + 1u], c = solver.levels[6u * k + 2u];
     ivec4 d = solver.levels[6u * k + 3u], e = solver.levels[6u * k + 4u];
-    return SolverLevel(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w, d.x, d.y, d.z, d.w, e.x);
+    return SolverLevel(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w, d.x, d.y, d.z, d.w, e.x,
+                       e.y, e.z);
 }
 void find_levels()
 {
