@@ -39,10 +39,10 @@ struct SolverLevel {
     // Of ACAD: where in the arena the flags of rows begin that take part in a solve
     // (kernels/acad.kernel.glsl); on a mesh, of groups of nodes and of edges.
     std::int32_t live = 0, live_edges = 0;
-    // Of the cloth: the first `folded` edges have a row each of blocks that make theirs, by weights; 0: no
-    // spring is loose.
-    std::int32_t fold_start = 0, folded = 0;
-    std::int32_t reserved[3]{};
+    // Of the cloth: the first edge that holds a node, and the first that is loose. Those before have a row
+    // each of blocks that make theirs, by weights.
+    std::int32_t held = 0, loose = 0, fold_start = 0;
+    std::int32_t reserved[2]{};
 
     /// Where plane 0 begins, against `base`: with the border of a sheet; of a mesh, which has one row and no
     /// border, with that row.
@@ -50,6 +50,7 @@ struct SolverLevel {
     {
         return edge_size > 0 ? static_cast<std::int32_t>(NodeLayout::border_rows) * stride : 0;
     }
+    bool folds() const { return loose < edges; }
     /// What passes over nodes are divided into: rows of a sheet, and of a mesh, which has but one, groups.
     std::int32_t node_units() const { return rows > 1 ? rows : sum_groups(columns); }
 };

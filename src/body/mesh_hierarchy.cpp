@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <compare>
 #include <cmath>
+#include <compare>
 #include <utility>
 
 #include "body/node_layout.hpp"
@@ -261,20 +261,21 @@ std::uint32_t spring_between(const ClothModel& cloth, std::uint32_t a, std::uint
     return static_cast<std::uint32_t>(found - cloth.springs.begin());
 }
 
-/// A bend spring (a, d) about the side (b, c), and the springs ab, ac, db, dc.
+/// A bend spring (a, d) about the side (b, c), and the springs from a to b, or c, and on to d.
 struct Fold {
-    std::uint32_t spring = 0, sides[4]{};
+    std::uint32_t spring = 0, halves[2]{};
 };
 
-/// Bend springs that the operator has folded onto the sides of their two triangles, as that of a sheet has
-/// them on their two halves. With x_a - x_d = ((x_a - x_b) + (x_b - x_d) + (x_a - x_c) + (x_c - x_d)) / 2,
-///   |x_a - x_d|^2 <= |x_a - x_b|^2 + |x_b - x_d|^2 + |x_a - x_c|^2 + |x_c - x_d|^2
-/// so that each side has the whole block of the bend spring, and the operator is no softer than E. That
-/// halves the couplings of a mesh. Where bending is a limit or has numbers of its own, nothing is folded.
+/// Bend springs that the operator has folded onto sides of their two triangles, as that of a sheet has them
+/// on their two halves: |x_a - x_d|^2 <= 2 (|x_a - x_b|^2 + |x_b - x_d|^2), so that it is no softer than E.
+/// They go by b and by c in turn, as the numbers of the four vertices say. That halves the couplings of a
+/// mesh. Where bending is a limit or has numbers of its own, nothing is folded.
 std::vector<Fold> folds_of(const ClothModel& cloth)
 {
     std::vector<Fold> folds;
     if (cloth.graded || cloth.bends_by_constraints() || cloth.corrects_steps()) return folds;
+    std::vector<std::uint32_t> vertex(cloth.node_count());  // of each node
+    for (std::uint32_t v = 0; v < cloth.node_count(); ++v) vertex[cloth.node(v)] = v;
     struct Side {
         std::uint32_t b, c, opposite;
         auto operator<=>(const Side&) const = default;
@@ -290,13 +291,15 @@ std::vector<Fold> folds_of(const ClothModel& cloth)
         const Side &one = sides[k - 1], &other = sides[k];
         if (one.b != other.b || one.c != other.c || one.opposite == other.opposite) continue;
         const std::uint32_t a = one.opposite, d = other.opposite;
-        Fold fold{spring_between(cloth, a, d),
-                  {spring_between(cloth, a, one.b), spring_between(cloth, a, one.c),
-                   spring_between(cloth, d, one.b), spring_between(cloth, d, one.c)}};
-        const bool all_there = std::find(fold.sides, fold.sides + 4, nowhere) == fold.sides + 4;
-        if (fold.spring == nowhere || !all_there || !is_free(cloth, a) || !is_free(cloth, d) ||
-            cloth.springs[fold.spring].spring_class != SpringClass::bend)
-            continue;
+        const auto [lower, higher] =
+            vertex[one.b] < vertex[one.c] ? std::pair(one.b, one.c) : std::pair(one.c, one.b);
+        const bool is_even = (vertex[a] + vertex[d] + vertex[one.b] + vertex[one.c]) % 2 == 0;
+        const std::uint32_t between = is_even ? lower : higher;
+        const Fold fold{spring_between(cloth, a, d),
+                        {spring_between(cloth, a, between), spring_between(cloth, between, d)}};
+        if (fold.spring == nowhere || fold.halves[0] == nowhere || fold.halves[1] == nowhere) continue;
+        if (!is_free(cloth, a) || !is_free(cloth, d)) continue;
+        if (cloth.springs[fold.spring].spring_class != SpringClass::bend) continue;
         folds.push_back(fold);
     }
     // A pair that is opposite to several sides is one spring.
@@ -346,11 +349,11 @@ SolverSprings solver_springs(const ClothModel& cloth)
     std::vector<Source> sources;
     for (std::uint32_t e = 0; e < list.loose_first; ++e) sources.push_back({e, e});
     for (const Fold& fold : folds)
-        for (const std::uint32_t side : fold.sides) sources.push_back({number[side], number[fold.spring]});
+        for (const std::uint32_t half : fold.halves) sources.push_back({number[half], number[fold.spring]});
     list.folds = rows_of<WeightedSource>(
         list.loose_first, sources, [](const Source& s) { return s.edge; },
         [](const Source& s) {
-            return WeightedSource{s.source, 1};
+            return WeightedSource{s.source, s.source == s.edge ? 1.0f : 2.0f};
         });
     return list;
 }
@@ -467,10 +470,9 @@ void Hierarchy::build_mesh(const ClothModel& cloth)
     level->row_start = add_sides(*level, sides);
     level->held_start = add_sides(*level, held);
     level->loose_start = add_sides(*level, loose);
-    if (!loose.empty()) {
-        level->fold_start = writer.add_weighted(list.folds, 0);
-        level->folded = static_cast<std::int32_t>(list.loose_first);
-    }
+    level->held = static_cast<std::int32_t>(list.coupling_count);
+    level->loose = static_cast<std::int32_t>(list.loose_first);
+    if (level->folds()) level->fold_start = writer.add_weighted(list.folds, 0);
     rest_lengths.reserve(list.springs.size());
     for (const Spring& s : list.springs) rest_lengths.push_back(static_cast<float>(s.rest_length));
     if (cloth.graded)

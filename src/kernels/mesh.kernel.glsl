@@ -34,7 +34,7 @@ KERNEL LimitCurve mesh_limit(int e, int spring_class)
 {
     LimitCurve curve = class_curve(spring_class);
     if (!remembers(spring_class)) return curve;
-    return remembered(curve, edge_load(edge_slip, e), edge_load(edge_stiff, e), softest(spring_class));
+    return remembered(curve, edge_load(edge_slip, e), edge_load(edge_stiff, e), softest_of_edge(e, spring_class));
 }
 
 // Of ACAD's solve, which has bending in its explicit step, limits alone.
@@ -75,7 +75,7 @@ KERNEL void mesh_springs(int e)
 // As sheet_multiply. d: x_j - x_i
 KERNEL RenewedLimit mesh_renewed(int e, int spring_class, vec3 d)
 {
-    return renewed(mesh_limit(e, spring_class), dot3(d, d), edge_load(edge_rest, e), spring_class);
+    return renewed(mesh_limit(e, spring_class), dot3(d, d), edge_load(edge_rest, e), spring_class, bare_softest_of_edge(e));
 }
 KERNEL void mesh_multiply(int e)
 {
@@ -93,7 +93,7 @@ KERNEL void mesh_multiply(int e)
 // body/mesh_hierarchy.cpp). A row names the side's own block first.
 KERNEL void mesh_fold(int e)
 {
-    if (e >= level.folded) return;
+    if (e >= level.loose) return;
     edge_store6(edge_block, e, mesh_sum_of_blocks(level.fold_start + e));
 }
 

@@ -105,7 +105,7 @@ private:
     void evaluate(Guard guard, std::uint32_t look = 0)
     {
         if (on_mesh_) add(Pass::mesh_springs, guard);
-        if (on_mesh_ && cloth_.hierarchy.levels.front().folded > 0) add(Pass::mesh_fold, guard);
+        if (on_mesh_ && cloth_.hierarchy.levels.front().folds()) add(Pass::mesh_fold, guard);
         add(on_mesh_ ? Pass::mesh_gather : Pass::sheet_gather, guard, 0, look);
     }
 

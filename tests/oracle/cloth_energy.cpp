@@ -27,21 +27,6 @@ Matrix folded(const Block& b, bool first, bool second)
     return a;
 }
 
-/// As one of a mesh is, about the side (b, c) of nodes a, b, c, d: onto the other four sides of its
-/// triangles.
-Matrix folded_about_side(const Block& b)
-{
-    Matrix a = Matrix::Zero(12, 12);
-    for (const int end : {0, 9})
-        for (const int middle : {3, 6}) {
-            a.block<3, 3>(end, end) += b;
-            a.block<3, 3>(middle, middle) += b;
-            a.block<3, 3>(end, middle) -= b;
-            a.block<3, 3>(middle, end) -= b;
-        }
-    return a;
-}
-
 /// The law "limited spring":  E = k e^2 / 2 + K max(0, e - s l0)^2 / 2 + K' max(0, -e - s l0)^2 / 2
 struct Curve {
     double below = 0, limit = 0, beyond = 0, compressed = 0, rest = 0;
@@ -89,9 +74,8 @@ void ImplicitStep::add_pair(int i, int j, const std::vector<int>& between, bool 
             for (const int c : {0, 1}) all.block<3, 3>(6 * r, 6 * c) = a.block<3, 3>(3 * r, 3 * c);
         return all;
     };
-    const auto bent = [block, moved_apart, three](const Vector& moved) -> Matrix {
-        const Block b = block(moved_apart(moved));
-        return three ? folded(b, true, true) : folded_about_side(b);
+    const auto bent = [block, moved_apart](const Vector& moved) -> Matrix {
+        return folded(block(moved_apart(moved)), true, true);
     };
     // A half that leads to a pinned node is left out of what coarser levels are made of.
     const auto pinned = [&](int node) {
@@ -127,7 +111,13 @@ void ImplicitStep::add_spring(std::size_t spring_class, int i, int j, const std:
     if (role == SpringRole::constraint) {
         curve.limit = given.limit;
         curve.below = given.limit > 0 ? given.stiffness : 0;
-        const double soft = spring_class != bend && input_.softest > 0 ? 1 / input_.softest : 0;
+        // Four times as stiff where a node of a mesh hangs by it.
+        const auto is_pinned = [&](int node) {
+            return bool{input_.is_pinned[static_cast<std::size_t>(node)]};
+        };
+        const bool holds = !input_.triangles.empty() && is_pinned(i) != is_pinned(j);
+        const double softest = input_.softest * (holds ? 4 : 1);
+        const double soft = spring_class != bend && softest > 0 ? 1 / softest : 0;
         curve.beyond = 1 / (given.compliance + soft);
         if (input_.scene.newton_multigrid.resists == Resists::both) curve.compressed = curve.beyond;
     } else {
@@ -261,20 +251,24 @@ void ImplicitStep::add_mesh()
     const auto distance = [&](int i, int j) {
         return (input_.rest[static_cast<std::size_t>(i)] - input_.rest[static_cast<std::size_t>(j)]).norm();
     };
-    std::map<std::pair<int, int>, std::vector<int>> bends;  ///< with the first side that each is about
+    std::map<std::pair<int, int>, std::vector<int>> bends;  ///< with what is between
     const auto is_free = [&](int node) { return !input_.is_pinned[static_cast<std::size_t>(node)]; };
-    const bool folds =
-        input_.scene.method != Method::acad && input_.cloth.springs.bend_model == BendModel::skip_spring;
+    const Springs& springs = input_.cloth.springs;
+    const bool folds = input_.scene.method != Method::acad && springs.bend_model == BendModel::skip_spring &&
+                       springs.bend.role != SpringRole::constraint;
     for (const auto& [edge, opposite] : edges) {
         add_spring(structural, edge.first, edge.second, {}, distance(edge.first, edge.second), 1);
         if (opposite.size() != 2) continue;
         const auto pair = std::minmax(opposite[0], opposite[1]);
         if (edges.count(pair) > 0) continue;
         const bool is_folded = folds && is_free(pair.first) && is_free(pair.second);
-        bends.emplace(pair, is_folded ? std::vector<int>{edge.first, edge.second} : std::vector<int>{});
+        // By the one or the other end of the side, in turn.
+        const bool is_even = (pair.first + pair.second + edge.first + edge.second) % 2 == 0;
+        bends.emplace(pair,
+                      is_folded ? std::vector<int>{is_even ? edge.first : edge.second} : std::vector<int>{});
     }
-    for (const auto& [pair, about] : bends)
-        add_spring(bend, pair.first, pair.second, about, distance(pair.first, pair.second), 1);
+    for (const auto& [pair, between] : bends)
+        add_spring(bend, pair.first, pair.second, between, distance(pair.first, pair.second), 1);
     if (input_.cloth.springs.bend_model == BendModel::quadratic)
         for (std::size_t t = 0; t < input_.triangles.size(); ++t) add_curvature(t);
     add_inertia(masses);

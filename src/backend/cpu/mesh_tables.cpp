@@ -147,7 +147,7 @@ void MeshTables::add_springs(MeshLanes& of, const SolverLevel& level)
     };
     of.held = springs_by_node(level.held_start);
     of.loose = springs_by_node(level.loose_start);
-    if (level.folded > 0) of.folds = weighted(level.folded, level.fold_start, {}, 0, 1, empty_block(level));
+    if (level.folds()) of.folds = weighted(level.loose, level.fold_start, {}, 0, 1, empty_block(level));
     const auto size = static_cast<std::size_t>(whole_slices(level.edges));
     std::vector<std::int32_t> ends[2] = {std::vector<std::int32_t>(size), std::vector<std::int32_t>(size)};
     std::vector<float> classes(size);
@@ -159,6 +159,15 @@ void MeshTables::add_springs(MeshLanes& of, const SolverLevel& level)
         classes[e] = static_cast<float>(edge[2]);
         has_class[edge[2]] = true;
     }
+    std::vector<std::int32_t> class_of_group(static_cast<std::size_t>(sum_groups(level.edges)), -1);
+    for (std::size_t group = 0; group < class_of_group.size(); ++group) {
+        const auto begin = classes.begin() + static_cast<std::ptrdiff_t>(group * sum_columns);
+        const auto end =
+            classes.begin() + std::min<std::ptrdiff_t>((begin - classes.begin()) + sum_columns, level.edges);
+        if (std::all_of(begin, end, [&](float k) { return k == *begin; }))
+            class_of_group[group] = static_cast<std::int32_t>(*begin);
+    }
+    of.class_of_group = keep(std::move(class_of_group));
     for (int k = 0; k < 3; ++k)
         if (has_class[k]) of.classes[of.class_count++] = k;
     of.first_end = keep(std::move(ends[0]));

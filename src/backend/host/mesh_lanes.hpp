@@ -32,7 +32,8 @@ struct MeshLanes {
     // Of edges of the cloth: records of their ends, in floats, and the class of springs.
     const std::int32_t *first_end = nullptr, *second_end = nullptr;
     const float* spring_class = nullptr;
-    int classes[3]{}, class_count = 0;  ///< that there are
+    const std::int32_t* class_of_group = nullptr;  ///< of sum_columns edges; -1: of several classes
+    int classes[3]{}, class_count = 0;             ///< that there are
     // How this level comes from the finer one, by weights. A filled entry has the weight -0 and the number 0.
     LaneTable parents;   ///< of nodes of the finer one; places are of records, in floats
     LaneTable children;  ///< of nodes; places are nodes of the finer one

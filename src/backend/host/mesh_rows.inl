@@ -139,7 +139,7 @@ bool knows_step(int o) const
     return h * Number(1e-3f) > (off < Number(0) ? -off : off);
 }
 
-/// Classes are mixed: the state by each is computed for all lanes.
+/// Where classes are mixed in a group, the state by each is computed for all lanes.
 KERNEL void springs_lanes(const SpringGroup& group, int first, int e)
 {
     const int k = e - first, count = lanes_left(e, level.edges);
@@ -148,9 +148,10 @@ KERNEL void springs_lanes(const SpringGroup& group, int first, int e)
     const real length2 = Lanes<T>::load(group.length2 + k),
                inverse_length = Lanes<T>::load(group.inverse_length + k);
     const real rest = edge_load(edge_rest, e), spring_class = Lanes<T>::load(lanes().spring_class + e);
-    LimitCurve curve = mesh_limit(e, lanes().classes[0]);
+    const int only = lanes().class_of_group[e / sum_columns];
+    LimitCurve curve = mesh_limit(e, only < 0 ? lanes().classes[0] : only);
     SpringState state = spring_state(curve, length2, inverse_length, rest);
-    for (int c = 1; c < lanes().class_count; ++c) {
+    for (int c = 1; only < 0 && c < lanes().class_count; ++c) {
         const LimitCurve next = mesh_limit(e, lanes().classes[c]);
         const mask is_next = spring_class > real(float(lanes().classes[c]) - 0.5f);
         state = chosen(is_next, spring_state(next, length2, inverse_length, rest), state);
@@ -185,8 +186,8 @@ void springs_of_groups(Pass pass, int begin, int end)
 
 KERNEL void fold_lanes(int e)
 {
-    if (e >= level.folded) return;
-    store_blocks(sum_of_blocks(level, lanes().folds, e), lanes_left(e, level.folded),
+    if (e >= level.loose) return;
+    store_blocks(sum_of_blocks(level, lanes().folds, e), lanes_left(e, level.loose),
                  [&](int lane) { return e + lane; });
 }
 
@@ -240,7 +241,8 @@ KERNEL void multiply_lanes(int e)
     const mask is_there = Lanes<T>::first_lanes(level.edges - e);
     for (int k = 0; k < lanes().class_count; ++k) {
         const int renewed_class = lanes().classes[k];
-        if (!remembers(renewed_class)) continue;
+        const int only = lanes().class_of_group[e / sum_columns];
+        if (!remembers(renewed_class) || (only >= 0 && only != renewed_class)) continue;
         const RenewedLimit limit = mesh_renewed(e, renewed_class, d);
         const mask renews = both(is_there, is_number(spring_class, renewed_class));
         Number *slip = edge_at(edge_slip, 1, e), *stiff = edge_at(edge_stiff, 1, e);
