@@ -130,6 +130,9 @@ struct Bench {
         oracle::StepInput input{.cloth = scene.cloth(0), .scene = scene, .dt = dt};
         if (c.implicit_euler) input.scene.method = Method::mass_spring;
         if (c.disc) input.triangles.assign(model.triangles().begin(), model.triangles().end());
+        if (c.disc)
+            for (std::uint32_t v = 0; v < model.node_count(); ++v)
+                input.numbers.push_back(static_cast<int>(model.node(v)));
         const std::uint32_t count = model.node_count();
         for (std::uint32_t vertex = 0; vertex < count; ++vertex)
             input.rest.push_back(oracle::point_of(to_double(model.positions[model.node(vertex)])));

@@ -268,14 +268,12 @@ struct Fold {
 
 /// Bend springs that the operator has folded onto sides of their two triangles, as that of a sheet has them
 /// on their two halves: |x_a - x_d|^2 <= 2 (|x_a - x_b|^2 + |x_b - x_d|^2), so that it is no softer than E.
-/// They go by b and by c in turn, as the numbers of the four vertices say. That halves the couplings of a
+/// They go by b and by c in turn, as the numbers of the four nodes say. That halves the couplings of a
 /// mesh. Where bending is a limit or has numbers of its own, nothing is folded.
 std::vector<Fold> folds_of(const ClothModel& cloth)
 {
     std::vector<Fold> folds;
     if (cloth.graded || cloth.bends_by_constraints() || cloth.corrects_steps()) return folds;
-    std::vector<std::uint32_t> vertex(cloth.node_count());  // of each node
-    for (std::uint32_t v = 0; v < cloth.node_count(); ++v) vertex[cloth.node(v)] = v;
     struct Side {
         std::uint32_t b, c, opposite;
         auto operator<=>(const Side&) const = default;
@@ -291,10 +289,7 @@ std::vector<Fold> folds_of(const ClothModel& cloth)
         const Side &one = sides[k - 1], &other = sides[k];
         if (one.b != other.b || one.c != other.c || one.opposite == other.opposite) continue;
         const std::uint32_t a = one.opposite, d = other.opposite;
-        const auto [lower, higher] =
-            vertex[one.b] < vertex[one.c] ? std::pair(one.b, one.c) : std::pair(one.c, one.b);
-        const bool is_even = (vertex[a] + vertex[d] + vertex[one.b] + vertex[one.c]) % 2 == 0;
-        const std::uint32_t between = is_even ? lower : higher;
+        const std::uint32_t between = (a + d + one.b + one.c) % 2 == 0 ? one.b : one.c;
         const Fold fold{spring_between(cloth, a, d),
                         {spring_between(cloth, a, between), spring_between(cloth, between, d)}};
         if (fold.spring == nowhere || fold.halves[0] == nowhere || fold.halves[1] == nowhere) continue;

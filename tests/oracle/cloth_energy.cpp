@@ -263,9 +263,12 @@ void ImplicitStep::add_mesh()
         if (edges.count(pair) > 0) continue;
         const bool is_folded = folds && is_free(pair.first) && is_free(pair.second);
         // By the one or the other end of the side, in turn.
-        const bool is_even = (pair.first + pair.second + edge.first + edge.second) % 2 == 0;
+        const auto number = [&](int vertex) { return input_.numbers[static_cast<std::size_t>(vertex)]; };
+        const int first = number(edge.first), second = number(edge.second);
+        const bool is_even = (number(pair.first) + number(pair.second) + first + second) % 2 == 0;
+        const bool by_first = is_even == (first < second);
         bends.emplace(pair,
-                      is_folded ? std::vector<int>{is_even ? edge.first : edge.second} : std::vector<int>{});
+                      is_folded ? std::vector<int>{by_first ? edge.first : edge.second} : std::vector<int>{});
     }
     for (const auto& [pair, between] : bends)
         add_spring(bend, pair.first, pair.second, between, distance(pair.first, pair.second), 1);

@@ -35,6 +35,7 @@ struct StepInput {
     Scene scene;                           ///< gravity, and the options of the solver
     std::vector<Point> rest = {};          ///< m: of a mesh, where its vertices were placed
     std::vector<Triangle> triangles = {};  ///< of a mesh
+    std::vector<int> numbers = {};         ///< of its vertices, as the cloth orders them
     double dt = 0;                         ///< s, of a step of second order two thirds of it
     double softest = 0;  ///< N/m: what corrects limits that remember, before their compliance; 0: penalty
     std::vector<Point> position = {}, velocity = {};  ///< m, m/s; positions of second order are q
