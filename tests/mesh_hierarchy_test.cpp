@@ -172,6 +172,7 @@ TEST(MeshHierarchy, CoarseOperatorsAreWhatProlongationMakesOfFineOnes)
     };
     run(Pass::step_begin, 0);
     run(Pass::mesh_springs, 0);
+    run(Pass::mesh_fold, 0);
     run(Pass::mesh_gather, 0);
     const Hierarchy& hierarchy = model.hierarchy;
     ASSERT_GE(hierarchy.level_count(), 3u);

@@ -117,6 +117,18 @@ public:
     /// N/m: the softest stiffness by which such a limit is made right, in steps of so many seconds; and of
     /// springs of a class, with their compliance.
     double softest_limit(double step_length) const;
+    /// How many times as stiff those are on a mesh that hold a node to a pinned one: what hangs there hangs
+    /// by them alone, and a jerk stretches them by the change of force over their stiffness.
+    static constexpr double held_limit = 4;
+    /// m: how far a polish takes a node at most where nothing but inertia resists (newton_polish). Of a mesh
+    /// a twenty-fifth of a spring, which stretches one by 0.08 %, and both its nodes by 0.3 %; sheets have no
+    /// bound.
+    double polish_reach() const { return is_sheet() ? 1e9 : 0.04 * length_across / springs_across; }
+    double held_softest_limit(double step_length) const  ///< N/m, with the compliance
+    {
+        const double softest = held_limit * softest_limit(step_length);
+        return softest / (1 + softest / limited[0].beyond);
+    }
     double softest_limit(SpringClass of, double step_length) const
     {
         const double softest = softest_limit(step_length);

@@ -21,8 +21,9 @@ struct SolverLevel {
     std::int32_t stride = 0;  ///< numbers from a row to the next
     std::int32_t base = 0;    ///< of plane 0
     std::int32_t size = 0;    ///< numbers of a plane
-    // Of a mesh's level only. Edges are what couples nodes: on the cloth its springs, those between free
-    // nodes first.
+    // Of a mesh's level only. Edges are what couples nodes: on the cloth its springs. Those between free
+    // nodes come first, then those that hold one to a pinned node, then loose ones: bend springs that are
+    // folded.
     std::int32_t edges = 0;
     std::int32_t edge_base = 0;  ///< of plane 0 of the edges; k numbers of edge e from plane p on are at
     std::int32_t edge_size = 0;  ///< edge_base + p edge_size + k e
@@ -33,12 +34,15 @@ struct SolverLevel {
     // How this level comes from the finer one: pairs (source, weight), the weight being the bits of a float.
     std::int32_t parents_start = 0;   ///< of the finer level's nodes; sources are offsets on this one
     std::int32_t children_start = 0;  ///< of nodes; sources are offsets on the finer one
-    std::int32_t diagonal_start = 0;  ///< of nodes; sources are blocks of the finer one, see mesh.kernel.glsl
-    std::int32_t coupling_start = 0;  ///< of edges; the same
+    std::int32_t loose_start = 0;     ///< of the cloth's nodes: as row_start, of loose springs
+    std::int32_t coupling_start = 0;  ///< of edges; sources are blocks of the finer one, see mesh.kernel.glsl
     // Of ACAD: where in the arena the flags of rows begin that take part in a solve
     // (kernels/acad.kernel.glsl); on a mesh, of groups of nodes and of edges.
     std::int32_t live = 0, live_edges = 0;
-    std::int32_t reserved[5]{};
+    // Of the cloth: the first edge that holds a node, and the first that is loose. Those before have a row
+    // each of blocks that make theirs, by weights.
+    std::int32_t held = 0, loose = 0, fold_start = 0;
+    std::int32_t reserved[2]{};
 
     /// Where plane 0 begins, against `base`: with the border of a sheet; of a mesh, which has one row and no
     /// border, with that row.
@@ -46,6 +50,7 @@ struct SolverLevel {
     {
         return edge_size > 0 ? static_cast<std::int32_t>(NodeLayout::border_rows) * stride : 0;
     }
+    bool folds() const { return loose < edges; }
     /// What passes over nodes are divided into: rows of a sheet, and of a mesh, which has but one, groups.
     std::int32_t node_units() const { return rows > 1 ? rows : sum_groups(columns); }
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <compare>
 #include <utility>
 
 #include "body/node_layout.hpp"
@@ -163,15 +164,15 @@ Ragged<WeightedSource> parents_of(const Ragged<StrongNeighbour>& neighbours, con
     return parents;
 }
 
-/// A part of the coarse operator: so much of a fine block goes into the block of coarse nodes i <= j.
+/// A part of the coarse operator: so much of a fine block goes into the coupling of coarse nodes i < j.
 struct Share {
     std::uint32_t i = 0, j = 0, source = 0;
     double weight = 0;
 };
 
 /// What P makes of the energy of the fine level (Galerkin), written with differences as the energy itself is:
-///   D(I) = sum_e (P_iI - P_jI)^2 B_e + sum_i P_iI^2 s_i,   B(I, J) = -sum_e (P_iI - P_jI) (P_iJ - P_jJ) B_e
-///   - sum_i P_iI P_iJ s_i
+///   B(I, J) = -sum_e (P_iI - P_jI) (P_iJ - P_jJ) B_e - sum_i P_iI P_iJ s_i,   s(I) = sum_i P_iI s_i
+/// and the diagonal is D(I) = s(I) + sum_J B(I, J).
 std::vector<Share> shares_of(const MeshGraph& fine, const Ragged<WeightedSource>& parents)
 {
     std::vector<Share> shares;
@@ -179,10 +180,9 @@ std::vector<Share> shares_of(const MeshGraph& fine, const Ragged<WeightedSource>
     std::vector<std::pair<std::uint32_t, double>> change;
     const auto add = [&](std::uint32_t source) {
         for (std::size_t a = 0; a < change.size(); ++a)
-            for (std::size_t b = a; b < change.size(); ++b) {
-                const double weight = change[a].second * change[b].second;
-                shares.push_back({change[a].first, change[b].first, source, a == b ? weight : -weight});
-            }
+            for (std::size_t b = a + 1; b < change.size(); ++b)
+                shares.push_back(
+                    {change[a].first, change[b].first, source, -change[a].second * change[b].second});
     };
     for (std::uint32_t e = 0; e < couplings; ++e) {
         const auto of_i = parents.row(fine.couplings[e].i), of_j = parents.row(fine.couplings[e].j);
@@ -226,13 +226,7 @@ CoarseMesh coarser(const MeshGraph& fine)
     };
     coarse.children = rows_of<WeightedSource>(aggregates.count, all, row_of, entry_of);
 
-    all = shares_of(fine, coarse.parents);
-    const auto middle =
-        std::stable_partition(all.begin(), all.end(), [](const Share& s) { return s.i == s.j; });
-    std::vector<Share> pairs(middle, all.end());
-    all.erase(middle, all.end());
-    coarse.diagonal = rows_of<WeightedSource>(aggregates.count, all, row_of, entry_of);
-
+    std::vector<Share> pairs = shares_of(fine, coarse.parents);
     std::stable_sort(pairs.begin(), pairs.end(),
                      [](const Share& a, const Share& b) { return a.i != b.i ? a.i < b.i : a.j < b.j; });
     coarse.couplings.start.push_back(0);
@@ -251,25 +245,111 @@ CoarseMesh coarser(const MeshGraph& fine)
 
 namespace {
 
+bool is_free(const ClothModel& cloth, std::uint32_t node) { return cloth.inverse_mass(node) > 0; }
+
+/// The spring between two nodes, as a place in cloth.springs: one of a class that does something, and moves a
+/// node. `nowhere` when there is none.
+std::uint32_t spring_between(const ClothModel& cloth, std::uint32_t a, std::uint32_t b)
+{
+    const std::uint32_t i = std::min(a, b), j = std::max(a, b);
+    const auto found = std::lower_bound(
+        cloth.springs.begin(), cloth.springs.end(), std::pair(i, j),
+        [](const Spring& s, std::pair<std::uint32_t, std::uint32_t> p) { return std::pair(s.i, s.j) < p; });
+    if (found == cloth.springs.end() || found->i != i || found->j != j) return nowhere;
+    const bool exists = cloth.limited[static_cast<std::size_t>(found->spring_class)].exists;
+    if (!exists || (!is_free(cloth, i) && !is_free(cloth, j))) return nowhere;
+    return static_cast<std::uint32_t>(found - cloth.springs.begin());
+}
+
+/// A bend spring (a, d) about the side (b, c), and the springs from a to b, or c, and on to d.
+struct Fold {
+    std::uint32_t spring = 0, halves[2]{};
+};
+
+/// Bend springs that the operator has folded onto sides of their two triangles, as that of a sheet has them
+/// on their two halves: |x_a - x_d|^2 <= 2 (|x_a - x_b|^2 + |x_b - x_d|^2), so that it is no softer than E.
+/// They go by b and by c in turn, as the numbers of the four nodes say. That halves the couplings of a
+/// mesh. Where bending is a limit or has numbers of its own, nothing is folded.
+std::vector<Fold> folds_of(const ClothModel& cloth)
+{
+    std::vector<Fold> folds;
+    if (cloth.graded || cloth.bends_by_constraints() || cloth.corrects_steps()) return folds;
+    struct Side {
+        std::uint32_t b, c, opposite;
+        auto operator<=>(const Side&) const = default;
+    };
+    std::vector<Side> sides;
+    for (const Triangle& t : cloth.triangles())
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t b = t[k], c = t[(k + 1) % 3];
+            sides.push_back({std::min(b, c), std::max(b, c), t[(k + 2) % 3]});
+        }
+    std::sort(sides.begin(), sides.end());
+    for (std::size_t k = 1; k < sides.size(); ++k) {
+        const Side &one = sides[k - 1], &other = sides[k];
+        if (one.b != other.b || one.c != other.c || one.opposite == other.opposite) continue;
+        const std::uint32_t a = one.opposite, d = other.opposite;
+        const std::uint32_t between = (a + d + one.b + one.c) % 2 == 0 ? one.b : one.c;
+        const Fold fold{spring_between(cloth, a, d),
+                        {spring_between(cloth, a, between), spring_between(cloth, between, d)}};
+        if (fold.spring == nowhere || fold.halves[0] == nowhere || fold.halves[1] == nowhere) continue;
+        if (!is_free(cloth, a) || !is_free(cloth, d)) continue;
+        if (cloth.springs[fold.spring].spring_class != SpringClass::bend) continue;
+        folds.push_back(fold);
+    }
+    // A pair that is opposite to several sides is one spring.
+    std::stable_sort(folds.begin(), folds.end(),
+                     [](const Fold& a, const Fold& b) { return a.spring < b.spring; });
+    folds.erase(std::unique(folds.begin(), folds.end(),
+                            [](const Fold& a, const Fold& b) { return a.spring == b.spring; }),
+                folds.end());
+    return folds;
+}
+
 /// Springs of a mesh as the solver numbers them: those between nodes that move first, then those that hold
-/// one to a pinned node. Springs of a class that does nothing, or between pinned nodes, are left out.
+/// one to a pinned node, then loose ones. Springs of a class that does nothing, or between pinned nodes, are
+/// left out.
 struct SolverSprings {
     std::vector<Spring> springs;
-    std::size_t coupling_count = 0;
+    std::size_t coupling_count = 0, loose_first = 0;
+    Ragged<WeightedSource> folds;  ///< by spring before loose_first: itself and what is folded onto it
 };
 
 SolverSprings solver_springs(const ClothModel& cloth)
 {
     SolverSprings list;
-    const auto is_free = [&](std::uint32_t i) { return cloth.inverse_mass(i) > 0; };
-    const auto exists = [&](const Spring& s) {
-        return cloth.limited[static_cast<std::size_t>(s.spring_class)].exists;
+    const std::vector<Fold> folds = folds_of(cloth);
+    std::vector<bool> is_loose(cloth.springs.size(), false);
+    for (const Fold& fold : folds) is_loose[fold.spring] = true;
+    std::vector<std::uint32_t> number(cloth.springs.size(), nowhere);
+    const auto add_where = [&](auto&& condition) {
+        for (std::size_t k = 0; k < cloth.springs.size(); ++k) {
+            const Spring& s = cloth.springs[k];
+            if (!cloth.limited[static_cast<std::size_t>(s.spring_class)].exists) continue;
+            const int free_ends = int{is_free(cloth, s.i)} + int{is_free(cloth, s.j)};
+            if (!condition(free_ends, is_loose[k])) continue;
+            number[k] = static_cast<std::uint32_t>(list.springs.size());
+            list.springs.push_back(s);
+        }
     };
-    for (const Spring& s : cloth.springs)
-        if (exists(s) && is_free(s.i) && is_free(s.j)) list.springs.push_back(s);
+    add_where([](int free_ends, bool loose) { return free_ends == 2 && !loose; });
     list.coupling_count = list.springs.size();
-    for (const Spring& s : cloth.springs)
-        if (exists(s) && is_free(s.i) != is_free(s.j)) list.springs.push_back(s);
+    add_where([](int free_ends, bool) { return free_ends == 1; });
+    list.loose_first = list.springs.size();
+    add_where([](int, bool loose) { return loose; });
+    if (folds.empty()) return list;
+    struct Source {
+        std::uint32_t edge, source;
+    };
+    std::vector<Source> sources;
+    for (std::uint32_t e = 0; e < list.loose_first; ++e) sources.push_back({e, e});
+    for (const Fold& fold : folds)
+        for (const std::uint32_t half : fold.halves) sources.push_back({number[half], number[fold.spring]});
+    list.folds = rows_of<WeightedSource>(
+        list.loose_first, sources, [](const Source& s) { return s.edge; },
+        [](const Source& s) {
+            return WeightedSource{s.source, s.source == s.edge ? 1.0f : 2.0f};
+        });
     return list;
 }
 
@@ -364,7 +444,7 @@ void Hierarchy::build_mesh(const ClothModel& cloth)
     SolverLevel* level =
         &append_mesh_level(static_cast<std::int32_t>(cloth.node_count()),
                            static_cast<std::int32_t>(list.springs.size()), planes, edge_planes);
-    std::vector<Side> sides, held;
+    std::vector<Side> sides, held, loose;
     level->edge_ends = writer.position();
     for (std::uint32_t e = 0; e < list.springs.size(); ++e) {
         const Spring& s = list.springs[e];
@@ -375,12 +455,19 @@ void Hierarchy::build_mesh(const ClothModel& cloth)
             graph.couplings.push_back({s.i, s.j, std::max({limited.below, limited.beyond, 1e-9})});
             sides.push_back({s.i, s.j, e});
             sides.push_back({s.j, s.i, e});
+        } else if (e >= list.loose_first) {
+            loose.push_back({s.i, s.j, e});
+            loose.push_back({s.j, s.i, e});
         } else {
-            held.push_back(cloth.inverse_mass(s.i) > 0 ? Side{s.i, s.j, e} : Side{s.j, s.i, e});
+            held.push_back(is_free(cloth, s.i) ? Side{s.i, s.j, e} : Side{s.j, s.i, e});
         }
     }
     level->row_start = add_sides(*level, sides);
     level->held_start = add_sides(*level, held);
+    level->loose_start = add_sides(*level, loose);
+    level->held = static_cast<std::int32_t>(list.coupling_count);
+    level->loose = static_cast<std::int32_t>(list.loose_first);
+    if (level->folds()) level->fold_start = writer.add_weighted(list.folds, 0);
     rest_lengths.reserve(list.springs.size());
     for (const Spring& s : list.springs) rest_lengths.push_back(static_cast<float>(s.rest_length));
     if (cloth.graded)
@@ -392,7 +479,7 @@ void Hierarchy::build_mesh(const ClothModel& cloth)
         level = &append_mesh_level(static_cast<std::int32_t>(coarse.graph.node_count),
                                    static_cast<std::int32_t>(coarse.graph.couplings.size()), level_planes,
                                    edge_force);
-        // Held springs lie between the couplings and the row sums of the cloth.
+        // Held and loose springs lie between the couplings and the row sums of the cloth.
         const auto couplings = static_cast<std::uint32_t>(graph.couplings.size());
         const auto add_blocks = [&](const Ragged<WeightedSource>& rows) {
             return writer.add_rows(rows, [&](const WeightedSource& a) {
@@ -404,7 +491,6 @@ void Hierarchy::build_mesh(const ClothModel& cloth)
         };
         level->parents_start = writer.add_weighted(coarse.parents, offset(*level, 0, 0));
         level->children_start = writer.add_weighted(coarse.children, offset(finer, 0, 0));
-        level->diagonal_start = add_blocks(coarse.diagonal);
         level->coupling_start = add_blocks(coarse.couplings);
         sides.clear();
         level->edge_ends = writer.position();

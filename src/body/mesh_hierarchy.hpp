@@ -34,7 +34,6 @@ struct CoarseMesh {
     /// others sum up to 1; a node on its own takes nothing, since smoothing solves it.
     Ragged<WeightedSource> parents;
     Ragged<WeightedSource> children;   ///< by coarse node: fine nodes, the same weights
-    Ragged<WeightedSource> diagonal;   ///< by coarse node: blocks of the finer level
     Ragged<WeightedSource> couplings;  ///< by coarse coupling: blocks of the finer level
 };
 

@@ -34,7 +34,7 @@ KERNEL LimitCurve mesh_limit(int e, int spring_class)
 {
     LimitCurve curve = class_curve(spring_class);
     if (!remembers(spring_class)) return curve;
-    return remembered(curve, edge_load(edge_slip, e), edge_load(edge_stiff, e), softest(spring_class));
+    return remembered(curve, edge_load(edge_slip, e), edge_load(edge_stiff, e), softest_of_edge(e, spring_class));
 }
 
 // Of ACAD's solve, which has bending in its explicit step, limits alone.
@@ -46,6 +46,15 @@ KERNEL SpringShare with_bending(int e, SpringShare spring, vec3 d)
 KERNEL real mesh_taut(SpringShare spring)
 {
     return choose(magnitude(spring.multiplier) > 0.0f, real(1.0f), real(0.0f));
+}
+
+// A sum of blocks of this level: the row of pairs that `start` points at.
+KERNEL Symmetric mesh_sum_of_blocks(int start)
+{
+    Symmetric a = symmetric_diagonal(real(0.0f));
+    for (int k = topology(start); k < topology(start + 1); k += 2)
+        a = plus_scaled(a, edge_load6(edge_block, topology(k)), topology_weight(k + 1));
+    return a;
 }
 
 KERNEL void mesh_springs(int e)
@@ -66,7 +75,7 @@ KERNEL void mesh_springs(int e)
 // As sheet_multiply. d: x_j - x_i
 KERNEL RenewedLimit mesh_renewed(int e, int spring_class, vec3 d)
 {
-    return renewed(mesh_limit(e, spring_class), dot3(d, d), edge_load(edge_rest, e), spring_class);
+    return renewed(mesh_limit(e, spring_class), dot3(d, d), edge_load(edge_rest, e), spring_class, bare_softest_of_edge(e));
 }
 KERNEL void mesh_multiply(int e)
 {
@@ -78,6 +87,14 @@ KERNEL void mesh_multiply(int e)
     edge_store(edge_slip, e, limit.memory.slip);
     edge_store(edge_stiff, e, limit.memory.stiffness);
     sums[0] = sums[0] + limit.energy * mesh_scale(e);
+}
+
+// Bend springs that are loose couple no nodes: the sides of their triangles have their blocks as well (folds_of in
+// body/mesh_hierarchy.cpp). A row names the side's own block first.
+KERNEL void mesh_fold(int e)
+{
+    if (e >= level.loose) return;
+    edge_store6(edge_block, e, mesh_sum_of_blocks(level.fold_start + e));
 }
 
 // Forces and the operator of a node, from itself and from its springs.
@@ -119,6 +136,13 @@ KERNEL void leave_mesh_node(int o, MeshNode node)
     sums[1] = sums[1] + node.contact_energy;
 }
 
+// The force of a loose spring, whose block others have.
+KERNEL MeshNode with_force(MeshNode node, vec3 force, real side)
+{
+    node.r = plus_scaled(node.r, force, side);
+    return node;
+}
+
 // A spring to a pinned node is a support of this one. A taut spring is counted at the lower of its nodes that move.
 KERNEL void mesh_gather(int o)
 {
@@ -131,6 +155,8 @@ KERNEL void mesh_gather(int o)
         node.taut = node.taut + edge_load(edge_taut, e);
     }
     edge_store6(edge_block, level.edges + index, where_else_zero(node.mass > 0.0f, node.row_sum));
+    for (int k = topology(level.loose_start + index); k < topology(level.loose_start + index + 1); k += 2)
+        node = with_force(node, edge_load3(edge_force, topology(k + 1)), real(topology(k) > o ? 1.0f : -1.0f));
     for (int k = topology(level.row_start + index); k < topology(level.row_start + index + 1); k += 2) {
         int e = topology(k + 1);
         bool ahead_of = topology(k) > o;
@@ -191,7 +217,10 @@ KERNEL void mesh_coarsen_nodes(int o)
         row_sum = plus_scaled(row_sum, finer_edge_load6(edge_block, f), topology_weight(k + 1));
     }
     edge_store6(edge_block, level.edges + node, row_sum);
-    store6(plane_factor, o, factored(mesh_galerkin_sum(level.diagonal_start + node), real(0.0f)));
+    Symmetric diagonal = row_sum;
+    for (int k = topology(level.row_start + node); k < topology(level.row_start + node + 1); k += 2)
+        diagonal = plus(diagonal, edge_load6(edge_block, topology(k + 1)));
+    store6(plane_factor, o, factored(diagonal, real(0.0f)));
 }
 
 // The residual of the finer level, gathered, and the first correction of this one.

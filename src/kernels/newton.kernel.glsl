@@ -16,13 +16,13 @@ KERNEL LimitCurve remembered(LimitCurve curve, real slip, real stiffness, real s
     return curve;
 }
 
-// Such a limit after a step, and what its energy is changed by for the next one, J.
+// Such a limit after a step, and what its energy is changed by for the next one, J. softest_bare: N/m, without compliance
 struct RenewedLimit
 {
     LimitMemory memory;
     real energy;
 };
-KERNEL RenewedLimit renewed(LimitCurve curve, real length2, real rest_length, int spring_class)
+KERNEL RenewedLimit renewed(LimitCurve curve, real length2, real rest_length, int spring_class, real softest_bare)
 {
     real inverse_length = inverse_sqrt(length2), extension = length2 * inverse_length - rest_length;
     real slack = curve.limit * rest_length, over = extension - slack, under = real(0.0f) - extension - slack;
@@ -30,7 +30,7 @@ KERNEL RenewedLimit renewed(LimitCurve curve, real length2, real rest_length, in
     SpringState state = spring_state(curve, length2, inverse_length, rest_length);
     RenewedLimit limit;
     limit.memory = renewed_limit(state.multiplier, violation * reciprocal(rest_length), curve.beyond, compliance(spring_class),
-                                 softest_limit(), stiffest_limit());
+                                 softest_bare, stiffest_limit());
     curve = remembered(curve, limit.memory.slip, limit.memory.stiffness, limit.memory.stiffness);
     limit.energy = spring_state(curve, length2, inverse_length, rest_length).energy - state.energy;
     return limit;
@@ -389,10 +389,18 @@ KERNEL void newton_move(int o)
     store3(plane_t, o, t + x);
 }
 // What is left of local errors at the end of a step: a damped step of block Jacobi, from what the last look has left. It
-// takes the peaks of stretch at single springs.
+// takes the peaks of stretch at single springs. Nothing but a node's inertia resists a step across springs that lie in one
+// plane, as those of a node at a mesh's border do, until it has stretched them by some per cent: so the step is not longer
+// than polish_reach() in its softest direction, which a second D^-1 finds.
 KERNEL void newton_polish(int o)
 {
-    store3(plane_t, o, load3(plane_t, o) + solved(load6(plane_factor, o), load3(plane_r, o)) * real(0.7f));
+    Symmetric factor = load6(plane_factor, o);
+    vec3 x = solved(factor, load3(plane_r, o)) * real(0.7f);
+    vec3 softest = solved(factor, x);
+    softest = softest * inverse_sqrt(dot3(softest, softest));
+    real way = dot3(softest, x), reach = polish_reach();
+    real kept = choose(way > reach, reach, largest(way, real(0.0f) - reach));
+    store3(plane_t, o, load3(plane_t, o) + (x + softest * (kept - way)));
 }
 KERNEL void search_move(int o)
 {

@@ -64,7 +64,7 @@ KERNEL void sheet_multiply(int o)
         int j = o + forward_offset(k);
         vec3 d = load3(plane_q, j) + load3(plane_t, j) - x;
         real scale = spring_scale(k, o);
-        RenewedLimit limit = renewed(sheet_limit(k, o), dot3(d, d), sheet_rest(k), sheet_class(k));
+        RenewedLimit limit = renewed(sheet_limit(k, o), dot3(d, d), sheet_rest(k), sheet_class(k), softest_limit());
         store(plane_slip + k, o, limit.memory.slip * scale);
         store(plane_stiff + k, o, limit.memory.stiffness);
         sums[0] = sums[0] + limit.energy * scale;

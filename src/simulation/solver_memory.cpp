@@ -85,7 +85,11 @@ void fit_solver_memory(PassRunner& runner, const ClothModel& model, std::uint32_
     for (std::size_t k = 0; k < slips.size(); ++k) {
         const double stiffness{stiffnesses[k]};
         if (!(stiffness > 0)) continue;  // new, or none
-        const Softest& least = softest[static_cast<std::size_t>(class_of(k))];
+        Softest least = softest[static_cast<std::size_t>(class_of(k))];
+        const auto edge = static_cast<std::int32_t>(k);
+        if (!model.is_sheet() && edge >= cloth.held && edge < cloth.loose) {
+            least = {model.held_softest_limit(from), model.held_softest_limit(to)};
+        }
         slips[k] =
             static_cast<float>(slips[k] * std::max(stiffness, least.from) / std::max(stiffness, least.to));
     }

@@ -55,15 +55,16 @@ struct Curve {
 
 }  // namespace
 
-void ImplicitStep::add_pair(int i, int j, int between, bool folds, std::function<double(const Point&)> energy,
+void ImplicitStep::add_pair(int i, int j, const std::vector<int>& between, bool folds,
+                            std::function<double(const Point&)> energy,
                             std::function<Block(const Point&)> block)
 {
-    const bool three = between >= 0;
+    const bool three = between.size() == 1;
     Term term;
-    term.nodes = three ? std::vector<int>{i, between, j} : std::vector<int>{i, j};
-    const auto moved_apart = [three](const Vector& moved) -> Point {
-        return moved.segment<3>(three ? 6 : 3) - moved.segment<3>(0);
-    };
+    term.nodes = {i};
+    term.nodes.insert(term.nodes.end(), between.begin(), between.end());
+    term.nodes.push_back(j);
+    const auto moved_apart = [](const Vector& moved) -> Point { return moved.tail<3>() - moved.head<3>(); };
     term.energy = [energy, moved_apart](const Vector& moved) { return energy(moved_apart(moved)); };
     const auto straight = [block, moved_apart, three](const Vector& moved) -> Matrix {
         const Matrix a = coupled(block(moved_apart(moved)));
@@ -80,7 +81,8 @@ void ImplicitStep::add_pair(int i, int j, int between, bool folds, std::function
     const auto pinned = [&](int node) {
         return node >= 0 && input_.is_pinned[static_cast<std::size_t>(node)];
     };
-    const bool first = !pinned(i) && !pinned(between), second = !pinned(j) && !pinned(between);
+    const int middle = three ? between.front() : -1;
+    const bool first = !pinned(i) && !pinned(middle), second = !pinned(j) && !pinned(middle);
     const auto bent_between_free = [=](const Vector& moved) -> Matrix {
         return folded(block(moved_apart(moved)), first, second);
     };
@@ -92,7 +94,8 @@ void ImplicitStep::add_pair(int i, int j, int between, bool folds, std::function
     terms_.push_back(std::move(term));
 }
 
-void ImplicitStep::add_spring(std::size_t spring_class, int i, int j, int between, double rest, double part)
+void ImplicitStep::add_spring(std::size_t spring_class, int i, int j, const std::vector<int>& between,
+                              double rest, double part)
 {
     const Springs& springs = input_.cloth.springs;
     const SpringParameters& given = spring_class == structural ? springs.structural
@@ -108,14 +111,20 @@ void ImplicitStep::add_spring(std::size_t spring_class, int i, int j, int betwee
     if (role == SpringRole::constraint) {
         curve.limit = given.limit;
         curve.below = given.limit > 0 ? given.stiffness : 0;
-        const double soft = spring_class != bend && input_.softest > 0 ? 1 / input_.softest : 0;
+        // Four times as stiff where a node of a mesh hangs by it.
+        const auto is_pinned = [&](int node) {
+            return bool{input_.is_pinned[static_cast<std::size_t>(node)]};
+        };
+        const bool holds = !input_.triangles.empty() && is_pinned(i) != is_pinned(j);
+        const double softest = input_.softest * (holds ? 4 : 1);
+        const double soft = spring_class != bend && softest > 0 ? 1 / softest : 0;
         curve.beyond = 1 / (given.compliance + soft);
         if (input_.scene.newton_multigrid.resists == Resists::both) curve.compressed = curve.beyond;
     } else {
         curve.below = given.stiffness;
     }
     if (quadratic && spring_class == bend) curve = {.rest = rest};
-    const bool folds = between >= 0 && role != SpringRole::constraint;
+    const bool folds = !between.empty() && role != SpringRole::constraint;
     const Point before = at(j) - at(i);
     corners_.emplace_back([=](const Vector& t) {
         const double e = (before + t.segment<3>(3 * j) - t.segment<3>(3 * i)).norm() - rest;
@@ -175,22 +184,25 @@ void ImplicitStep::add_sheet(const SheetOptions& sheet)
     const bool halves = sheet.border == SheetBorder::half;
     const auto part_of = [&](int k, int count) { return halves && (k == 0 || k == count - 1) ? 0.5 : 1.0; };
     const auto node = [&](int r, int c) { return r * columns + c; };
+    const auto between = [](bool folds, int middle) {
+        return folds ? std::vector<int>{middle} : std::vector<int>{};
+    };
     const auto inside = [&](int r, int c) { return r >= 0 && r < rows && c >= 0 && c < columns; };
     for (int r = 0; r < rows; ++r)
         for (int c = 0; c < columns; ++c) {
             const int i = node(r, c);
             const double along_row = part_of(r, rows), along_column = part_of(c, columns);
             const double slanted = std::hypot(dx, dz);
-            if (inside(r, c + 1)) add_spring(structural, i, node(r, c + 1), -1, dx, along_row);
-            if (inside(r + 1, c)) add_spring(structural, i, node(r + 1, c), -1, dz, along_column);
-            if (inside(r + 1, c + 1)) add_spring(shear, i, node(r + 1, c + 1), -1, slanted, 1);
-            if (inside(r + 1, c - 1)) add_spring(shear, i, node(r + 1, c - 1), -1, slanted, 1);
+            if (inside(r, c + 1)) add_spring(structural, i, node(r, c + 1), {}, dx, along_row);
+            if (inside(r + 1, c)) add_spring(structural, i, node(r + 1, c), {}, dz, along_column);
+            if (inside(r + 1, c + 1)) add_spring(shear, i, node(r + 1, c + 1), {}, slanted, 1);
+            if (inside(r + 1, c - 1)) add_spring(shear, i, node(r + 1, c - 1), {}, slanted, 1);
             // A sheet whose springs have numbers of their own is a mesh to the solver, which folds nothing.
             const bool folds = !halves && input_.cloth.springs.bend_model == BendModel::skip_spring;
             if (inside(r, c + 2))
-                add_spring(bend, i, node(r, c + 2), folds ? node(r, c + 1) : -1, 2 * dx, along_row);
+                add_spring(bend, i, node(r, c + 2), between(folds, node(r, c + 1)), 2 * dx, along_row);
             if (inside(r + 2, c))
-                add_spring(bend, i, node(r + 2, c), folds ? node(r + 1, c) : -1, 2 * dz, along_column);
+                add_spring(bend, i, node(r + 2, c), between(folds, node(r + 1, c)), 2 * dz, along_column);
         }
     if (input_.cloth.springs.bend_model == BendModel::quadratic) {
         // B/2 (|x_uu|^2 + |x_vv|^2 + 2 |x_uv|^2)
@@ -239,15 +251,27 @@ void ImplicitStep::add_mesh()
     const auto distance = [&](int i, int j) {
         return (input_.rest[static_cast<std::size_t>(i)] - input_.rest[static_cast<std::size_t>(j)]).norm();
     };
-    std::map<std::pair<int, int>, bool> bends;
+    std::map<std::pair<int, int>, std::vector<int>> bends;  ///< with what is between
+    const auto is_free = [&](int node) { return !input_.is_pinned[static_cast<std::size_t>(node)]; };
+    const Springs& springs = input_.cloth.springs;
+    const bool folds = input_.scene.method != Method::acad && springs.bend_model == BendModel::skip_spring &&
+                       springs.bend.role != SpringRole::constraint;
     for (const auto& [edge, opposite] : edges) {
-        add_spring(structural, edge.first, edge.second, -1, distance(edge.first, edge.second), 1);
+        add_spring(structural, edge.first, edge.second, {}, distance(edge.first, edge.second), 1);
         if (opposite.size() != 2) continue;
         const auto pair = std::minmax(opposite[0], opposite[1]);
-        if (edges.count(pair) == 0) bends[pair] = true;
+        if (edges.count(pair) > 0) continue;
+        const bool is_folded = folds && is_free(pair.first) && is_free(pair.second);
+        // By the one or the other end of the side, in turn.
+        const auto number = [&](int vertex) { return input_.numbers[static_cast<std::size_t>(vertex)]; };
+        const int first = number(edge.first), second = number(edge.second);
+        const bool is_even = (number(pair.first) + number(pair.second) + first + second) % 2 == 0;
+        const bool by_first = is_even == (first < second);
+        bends.emplace(pair,
+                      is_folded ? std::vector<int>{by_first ? edge.first : edge.second} : std::vector<int>{});
     }
-    for (const auto& [pair, there] : bends)
-        add_spring(bend, pair.first, pair.second, -1, distance(pair.first, pair.second), 1);
+    for (const auto& [pair, between] : bends)
+        add_spring(bend, pair.first, pair.second, between, distance(pair.first, pair.second), 1);
     if (input_.cloth.springs.bend_model == BendModel::quadratic)
         for (std::size_t t = 0; t < input_.triangles.size(); ++t) add_curvature(t);
     add_inertia(masses);

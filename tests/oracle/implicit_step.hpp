@@ -35,6 +35,7 @@ struct StepInput {
     Scene scene;                           ///< gravity, and the options of the solver
     std::vector<Point> rest = {};          ///< m: of a mesh, where its vertices were placed
     std::vector<Triangle> triangles = {};  ///< of a mesh
+    std::vector<int> numbers = {};         ///< of its vertices, as the cloth orders them
     double dt = 0;                         ///< s, of a step of second order two thirds of it
     double softest = 0;  ///< N/m: what corrects limits that remember, before their compliance; 0: penalty
     std::vector<Point> position = {}, velocity = {};  ///< m, m/s; positions of second order are q
@@ -100,9 +101,10 @@ public:
 private:
     void add_sheet(const SheetOptions& sheet);
     void add_mesh();
-    void add_pair(int i, int j, int between, bool folds, std::function<double(const Point&)> energy,
-                  std::function<Block(const Point&)> block);
-    void add_spring(std::size_t spring_class, int i, int j, int between, double rest, double part);
+    void add_pair(int i, int j, const std::vector<int>& between, bool folds,
+                  std::function<double(const Point&)> energy, std::function<Block(const Point&)> block);
+    void add_spring(std::size_t spring_class, int i, int j, const std::vector<int>& between, double rest,
+                    double part);
     void add_square(std::vector<int> nodes, const std::vector<double>& factors, double weight);
     void add_curvature(std::size_t triangle);
     void add_inertia(const std::vector<double>& masses);

@@ -149,7 +149,8 @@ private:
             const std::uint32_t v = vertex_of[node];
             a.block<3, 3>(3 * v, 3 * v) += block_at(level_.edges + static_cast<std::int32_t>(node));
         }
-        for (std::int32_t e = 0; e < level_.edges; ++e) {
+        // Loose springs are folded onto others.
+        for (std::int32_t e = 0; e < level_.loose; ++e) {
             const auto i = static_cast<std::uint32_t>(topology(level_.edge_ends + 3 * e) - first);
             const auto j = static_cast<std::uint32_t>(topology(level_.edge_ends + 3 * e + 1) - first);
             // What leads to a pinned node is in the row sum of the other one.

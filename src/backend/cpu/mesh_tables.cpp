@@ -134,15 +134,20 @@ void MeshTables::add_springs(MeshLanes& of, const SolverLevel& level)
     const std::int32_t first = Hierarchy::offset(level, 0, 0);
     const auto node_places = static_cast<std::size_t>(whole_slices(level.columns) + lanes);
     of.states = keep(std::vector<float>(MeshLanes::state_size * node_places));
-    of.held = make_table(
-                  level.columns,
-                  [&](std::int32_t node, Row& row) {
-                      for_each_pair(level.held_start, node, [&](std::int32_t other, std::int32_t edge) {
-                          row.push_back({2 * edge + (other - first < node ? 1 : 0)});
-                      });
-                  },
-                  [&](std::int32_t) { return Entry{2 * empty_block(level)}; })
-                  .lanes;
+    const auto springs_by_node = [&](std::int32_t table_start) {
+        return make_table(
+                   level.columns,
+                   [&](std::int32_t node, Row& row) {
+                       for_each_pair(table_start, node, [&](std::int32_t other, std::int32_t edge) {
+                           row.push_back({2 * edge + (other - first < node ? 1 : 0)});
+                       });
+                   },
+                   [&](std::int32_t) { return Entry{2 * empty_block(level)}; })
+            .lanes;
+    };
+    of.held = springs_by_node(level.held_start);
+    of.loose = springs_by_node(level.loose_start);
+    if (level.folds()) of.folds = weighted(level.loose, level.fold_start, {}, 0, 1, empty_block(level));
     const auto size = static_cast<std::size_t>(whole_slices(level.edges));
     std::vector<std::int32_t> ends[2] = {std::vector<std::int32_t>(size), std::vector<std::int32_t>(size)};
     std::vector<float> classes(size);
@@ -154,6 +159,15 @@ void MeshTables::add_springs(MeshLanes& of, const SolverLevel& level)
         classes[e] = static_cast<float>(edge[2]);
         has_class[edge[2]] = true;
     }
+    std::vector<std::int32_t> class_of_group(static_cast<std::size_t>(sum_groups(level.edges)), -1);
+    for (std::size_t group = 0; group < class_of_group.size(); ++group) {
+        const auto begin = classes.begin() + static_cast<std::ptrdiff_t>(group * sum_columns);
+        const auto end =
+            classes.begin() + std::min<std::ptrdiff_t>((begin - classes.begin()) + sum_columns, level.edges);
+        if (std::all_of(begin, end, [&](float k) { return k == *begin; }))
+            class_of_group[group] = static_cast<std::int32_t>(*begin);
+    }
+    of.class_of_group = keep(std::move(class_of_group));
     for (int k = 0; k < 3; ++k)
         if (has_class[k]) of.classes[of.class_count++] = k;
     of.first_end = keep(std::move(ends[0]));
@@ -186,7 +200,6 @@ void MeshTables::add_transfers(MeshLanes& of, const SolverLevel& level, const So
     // Behind the nodes there is a record of 0, and behind the blocks an empty one.
     of.children =
         weighted(level.columns, level.children_start, {}, Hierarchy::offset(finer, 0, 0), 1, finer.columns);
-    of.diagonal = weighted(level.columns, level.diagonal_start, {}, 0, 1, empty_block(finer));
 
     // Edges of as many sources side by side, within groups that passes are divided into.
     std::vector<std::int32_t> order(static_cast<std::size_t>(level.edges));

@@ -26,19 +26,21 @@ struct MeshLanes {
     LaneTable neighbours;
     const std::int32_t* neighbour_edges = nullptr;  ///< by entry: 2 e, and 1 more at the edge's second node
     float* couplings = nullptr;                     ///< by row: 6 numbers of 16 lanes, N/m
-    LaneTable held;                                 ///< of the cloth: places are as neighbour_edges
+    LaneTable held, loose;                          ///< of the cloth: places are as neighbour_edges
     float* vectors = nullptr;                       ///< records of a vector that neighbours are asked for
     float* states = nullptr;                        ///< of the cloth: the same
     // Of edges of the cloth: records of their ends, in floats, and the class of springs.
     const std::int32_t *first_end = nullptr, *second_end = nullptr;
     const float* spring_class = nullptr;
-    int classes[3]{}, class_count = 0;  ///< that there are
+    const std::int32_t* class_of_group = nullptr;  ///< of sum_columns edges; -1: of several classes
+    int classes[3]{}, class_count = 0;             ///< that there are
     // How this level comes from the finer one, by weights. A filled entry has the weight -0 and the number 0.
     LaneTable parents;   ///< of nodes of the finer one; places are of records, in floats
     LaneTable children;  ///< of nodes; places are nodes of the finer one
-    LaneTable diagonal;  ///< of nodes; places are blocks of the finer one
-    LaneTable sources;   ///< of edges; the same, in an order of their own: source_edges
+    LaneTable
+        sources;  ///< of edges, in an order of their own, source_edges; places are blocks of the finer one
     const std::int32_t* source_edges = nullptr;
+    LaneTable folds;  ///< of edges of the cloth: places are blocks of the level
 };
 
 /// Passes of meshes that find their neighbours in records, which must be made before.
@@ -58,8 +60,8 @@ constexpr bool asks_for_records(Pass pass)
 /// Passes of meshes that packs run.
 constexpr bool has_lanes(Pass pass)
 {
-    return asks_for_records(pass) || pass == Pass::mesh_gather || pass == Pass::mesh_coarsen_couplings ||
-           pass == Pass::mesh_coarsen_nodes;
+    return asks_for_records(pass) || pass == Pass::mesh_fold || pass == Pass::mesh_gather ||
+           pass == Pass::mesh_coarsen_couplings || pass == Pass::mesh_coarsen_nodes;
 }
 
 }  // namespace pliant

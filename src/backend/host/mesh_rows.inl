@@ -139,7 +139,7 @@ bool knows_step(int o) const
     return h * Number(1e-3f) > (off < Number(0) ? -off : off);
 }
 
-/// Classes are mixed: the state by each is computed for all lanes.
+/// Where classes are mixed in a group, the state by each is computed for all lanes.
 KERNEL void springs_lanes(const SpringGroup& group, int first, int e)
 {
     const int k = e - first, count = lanes_left(e, level.edges);
@@ -148,9 +148,10 @@ KERNEL void springs_lanes(const SpringGroup& group, int first, int e)
     const real length2 = Lanes<T>::load(group.length2 + k),
                inverse_length = Lanes<T>::load(group.inverse_length + k);
     const real rest = edge_load(edge_rest, e), spring_class = Lanes<T>::load(lanes().spring_class + e);
-    LimitCurve curve = mesh_limit(e, lanes().classes[0]);
+    const int only = lanes().class_of_group[e / sum_columns];
+    LimitCurve curve = mesh_limit(e, only < 0 ? lanes().classes[0] : only);
     SpringState state = spring_state(curve, length2, inverse_length, rest);
-    for (int c = 1; c < lanes().class_count; ++c) {
+    for (int c = 1; only < 0 && c < lanes().class_count; ++c) {
         const LimitCurve next = mesh_limit(e, lanes().classes[c]);
         const mask is_next = spring_class > real(float(lanes().classes[c]) - 0.5f);
         state = chosen(is_next, spring_state(next, length2, inverse_length, rest), state);
@@ -183,6 +184,13 @@ void springs_of_groups(Pass pass, int begin, int end)
     }
 }
 
+KERNEL void fold_lanes(int e)
+{
+    if (e >= level.loose) return;
+    store_blocks(sum_of_blocks(level, lanes().folds, e), lanes_left(e, level.loose),
+                 [&](int lane) { return e + lane; });
+}
+
 /// The force of springs, and whether they are taut.
 KERNEL FourNumbers<T> force_at(const std::int32_t* place) const
 {
@@ -200,6 +208,11 @@ KERNEL void gather_lanes(int o)
         node.taut = node.taut + force.w;
     }
     store_row_sums(o, where_else_zero(node.mass > 0.0f, node.row_sum));
+    const LaneTable& loose = lanes().loose;
+    for (const int entry : entries_of(loose, first)) {
+        const FourNumbers<T> force = force_at(loose.place + entry);
+        node = with_force(node, {force.x, force.y, force.z}, Record::signs(loose.place + entry));
+    }
     for (const int entry : entries_of(neighbours, first)) {
         const std::int32_t* place = lanes().neighbour_edges + entry;
         const FourNumbers<T> force = force_at(place);
@@ -228,7 +241,8 @@ KERNEL void multiply_lanes(int e)
     const mask is_there = Lanes<T>::first_lanes(level.edges - e);
     for (int k = 0; k < lanes().class_count; ++k) {
         const int renewed_class = lanes().classes[k];
-        if (!remembers(renewed_class)) continue;
+        const int only = lanes().class_of_group[e / sum_columns];
+        if (!remembers(renewed_class) || (only >= 0 && only != renewed_class)) continue;
         const RenewedLimit limit = mesh_renewed(e, renewed_class, d);
         const mask renews = both(is_there, is_number(spring_class, renewed_class));
         Number *slip = edge_at(edge_slip, 1, e), *stiff = edge_at(edge_stiff, 1, e);
@@ -258,18 +272,18 @@ KERNEL void residual_lanes(int o) { leave_residual(o, lanes_product(source_plane
 
 // --- from level to level ---------------------------------------------------------------------------------
 
-KERNEL Symmetric galerkin_sum_lanes(const LaneTable& table, int first)
+KERNEL Symmetric sum_of_blocks(const SolverLevel& of, const LaneTable& table, int first)
 {
     Symmetric a = symmetric_diagonal(real(0.0f));
     for (const int entry : entries_of(table, first)) {
-        a = plus_scaled(a, blocks_at<0>(finer, table.place + entry), Lanes<T>::load(table.weight + entry));
+        a = plus_scaled(a, blocks_at<0>(of, table.place + entry), Lanes<T>::load(table.weight + entry));
     }
     return a;
 }
 KERNEL void coarsen_couplings_lanes(int first)
 {
     const std::int32_t* edge = lanes().source_edges + first;
-    store_blocks(galerkin_sum_lanes(lanes().sources, first), lanes_left(first, level.edges),
+    store_blocks(sum_of_blocks(finer, lanes().sources, first), lanes_left(first, level.edges),
                  [&](int lane) { return edge[lane]; });
 }
 KERNEL void coarsen_nodes_lanes(int o)
@@ -284,10 +298,13 @@ KERNEL void coarsen_nodes_lanes(int o)
                         Lanes<T>::load(children.weight + entry));
     }
     store_row_sums(o, row_sum);
+    Symmetric diagonal = row_sum;
     for (const int entry : entries_of(neighbours, first)) {
-        store_coupling(entry, blocks_at<1>(level, lanes().neighbour_edges + entry));
+        const Symmetric block = blocks_at<1>(level, lanes().neighbour_edges + entry);
+        store_coupling(entry, block);
+        diagonal = plus(diagonal, block);
     }
-    store6(plane_factor, o, factored(galerkin_sum_lanes(lanes().diagonal, first), real(0.0f)));
+    store6(plane_factor, o, factored(diagonal, real(0.0f)));
 }
 
 KERNEL void restrict_lanes(int o)
@@ -319,6 +336,7 @@ void run_mesh_lanes(Pass pass, int begin, int end)
     using K = SolverKernels;
     switch (pass) {
         case Pass::mesh_springs: return springs_of_groups(pass, begin, end);
+        case Pass::mesh_fold: return rows<&K::fold_lanes>(pass, begin, end, level.edges);
         case Pass::mesh_gather: return nodes<&K::gather_lanes>(pass, begin, end);
         case Pass::mesh_coarsen_couplings:
             return rows<&K::coarsen_couplings_lanes>(pass, begin, end, level.edges);

@@ -45,6 +45,9 @@ struct SolverConstants {
     bool remembers[3]{};
     Number softest[3]{}, compliance[3]{};      ///< N/m, with the compliance; m/N
     Number softest_limit{}, stiffest_limit{};  ///< N/m, without it
+    Number polish_reach{};                     ///< m
+    /// N/m, of a mesh's springs that hold a node: with the compliance, and without it.
+    Number softest_held{}, softest_held_limit{};
     static constexpr int most_relaxations = 8;
     Number relaxations[most_relaxations]{};
 };

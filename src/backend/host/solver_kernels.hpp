@@ -226,7 +226,22 @@ struct SolverKernels {
     bool remembers_any() const { return constants.remembers[0] || constants.remembers[1]; }
     real softest(int k) const { return spread(constants.softest[k]); }
     real softest_limit() const { return spread(constants.softest_limit); }
+    /// Of a mesh's edges from e on: `held` of those that hold a node, and else `other`.
+    real where_held_edge(int e, Number held, Number other) const
+    {
+        return choose(Lanes<T>::first_lanes(level.held - e), spread(other),
+                      choose(Lanes<T>::first_lanes(level.loose - e), spread(held), spread(other)));
+    }
+    real softest_of_edge(int e, int k) const
+    {
+        return where_held_edge(e, constants.softest_held, constants.softest[k]);
+    }
+    real bare_softest_of_edge(int e) const
+    {
+        return where_held_edge(e, constants.softest_held_limit, constants.softest_limit);
+    }
     real compliance(int k) const { return spread(constants.compliance[k]); }
+    real polish_reach() const { return spread(constants.polish_reach); }
     real stiffest_limit() const { return spread(constants.stiffest_limit); }
 
     int collider_count() const { return context.collider_count; }

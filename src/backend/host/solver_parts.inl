@@ -7,6 +7,7 @@ void run_mesh(Pass pass, int begin, int end)
     using K = SolverKernels;
     switch (pass) {
         case Pass::mesh_springs: return rows<&K::mesh_springs>(pass, begin, end, level.edges);
+        case Pass::mesh_fold: return rows<&K::mesh_fold>(pass, begin, end, level.edges);
         case Pass::mesh_gather: return nodes<&K::mesh_gather>(pass, begin, end);
         case Pass::mesh_coarsen_couplings:
             return rows<&K::mesh_coarsen_couplings>(pass, begin, end, level.edges);

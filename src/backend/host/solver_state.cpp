@@ -137,6 +137,9 @@ SolverConstants<T> make_solver_constants(const ClothModel& model, double step_le
             c.compliance[k] = number(1 / model.limited[k].beyond);
             c.softest[k] = number(model.softest_limit(static_cast<SpringClass>(k), step_length));
         }
+        c.polish_reach = number(model.polish_reach());
+        c.softest_held_limit = number(ClothModel::held_limit * softest);
+        if (c.remembers[0]) c.softest_held = number(model.held_softest_limit(step_length));
     }
     // Chebyshev's points on the upper part of the spectrum of D^-1 A, which the smoother has to take care of:
     // the higher its degree, the larger the part that it can. Measured by V-cycles (docs/notes).

@@ -189,6 +189,9 @@ constexpr std::uint32_t solve_end[] = {
 constexpr std::uint32_t mesh_springs[] = {
 #include "shaders/mesh_springs.comp.inc"
 };
+constexpr std::uint32_t mesh_fold[] = {
+#include "shaders/mesh_fold.comp.inc"
+};
 constexpr std::uint32_t mesh_gather[] = {
 #include "shaders/mesh_gather.comp.inc"
 };

@@ -25,7 +25,7 @@ static_assert(sizeof(SolverLevel) <= level_numbers * sizeof(std::int32_t));
 static_assert(offsetof(SolverLevel, size) == 4 * sizeof(std::int32_t));
 static_assert(offsetof(SolverLevel, edge_ends) == 8 * sizeof(std::int32_t));
 static_assert(offsetof(SolverLevel, held_start) == 10 * sizeof(std::int32_t));
-static_assert(offsetof(SolverLevel, live_edges) == 16 * sizeof(std::int32_t));
+static_assert(offsetof(SolverLevel, fold_start) == 19 * sizeof(std::int32_t));
 
 /// As the uniform block of shaders/solver.glsl.
 struct SolverBlock {
@@ -147,7 +147,7 @@ void SolverBuffers::set_constants(double step_length)
         block.has[k] = c.has[k] ? 1 : 0;
         block.curve_kinds[k] = curve.kind;
     }
-    block.curve_damping = {c.curves[0].damping, c.curves[1].damping, c.curves[2].damping};
+    block.curve_damping = {c.curves[0].damping, c.curves[1].damping, c.curves[2].damping, c.polish_reach};
     block.curve_reach = {c.curves[0].reach, c.curves[1].reach, c.curves[2].reach, c.acad_reach};
     std::copy(std::begin(c.relaxations), std::end(c.relaxations), block.relaxations);
     block.tolerances[0] = c.linear_tolerance;
@@ -159,6 +159,8 @@ void SolverBuffers::set_constants(double step_length)
         block.remembers[k] = c.remembers[k] ? 1 : 0;
         block.remembers[3] |= block.remembers[k];
     }
+    block.softest[2] = c.softest_held;  // no bend spring remembers
+    block.compliance[2] = c.softest_held_limit;
     block.softest[3] = c.softest_limit;
     block.compliance[3] = c.stiffest_limit;
     block.acad_above_below = {c.acad_above2, c.acad_below2, c.acad_held_above2, c.acad_held_below2};

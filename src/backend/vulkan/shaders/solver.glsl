@@ -13,8 +13,8 @@ struct SolverLevel
 {
     int rows, columns, stride, base, size;
     int edges, edge_base, edge_size, edge_ends, row_start, held_start;
-    int parents_start, children_start, diagonal_start, coupling_start;
-    int live, live_edges;
+    int parents_start, children_start, loose_start, coupling_start;
+    int live, live_edges, held, loose, fold_start;
 };
 
 // As SolverBlock of solver_buffers.cpp.
@@ -22,12 +22,13 @@ layout(set = 0, binding = 18, std140) uniform Solver
 {
     vec4 step_contact;       // s, 1/s, contact stiffness, m (slip)
     vec4 curves[3];          // LimitCurve by class: below, limit, beyond, compressed
-    vec4 curve_damping;      // N/m by class
+    vec4 curve_damping;      // N/m by class; w: m, polish_reach
     vec4 curve_reach;        // by class; w: acad_reach
     vec4 relaxations[2];
     vec4 tolerances;         // of the linear solve, of Newton's method, and its iterations
-    vec4 softest;            // N/m, of limits that remember: by class with their compliance; w: without it
-    vec4 compliance;         // m/N, by class; w: N/m, the stiffest limit, without its compliance
+    vec4 softest;            // N/m, of limits that remember: by class with their compliance; z: that hold a node of a
+                             // mesh; w: without compliance
+    vec4 compliance;         // m/N, by class; z: N/m, as softest.z without compliance; w: N/m, the stiffest limit, too
     vec4 acad_above_below;   // by length squared over rest length squared; z, w: of those held
     vec4 acad_near;          // above, below; z: is it ACAD, w: does it remember
     vec4 second_order;       // s, of BDF2; 1/s; a third; 1/s, what air takes
@@ -56,7 +57,8 @@ SolverLevel level_at(uint k)
 {
     ivec4 a = solver.levels[6u * k], b = solver.levels[6u * k + 1u], c = solver.levels[6u * k + 2u];
     ivec4 d = solver.levels[6u * k + 3u], e = solver.levels[6u * k + 4u];
-    return SolverLevel(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w, d.x, d.y, d.z, d.w, e.x);
+    return SolverLevel(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w, d.x, d.y, d.z, d.w, e.x,
+                       e.y, e.z, e.w);
 }
 void find_levels()
 {
@@ -168,8 +170,11 @@ real enough_iterations() { return solver.tolerances.z; }
 bool remembers(int k) { return solver.remembers[k]; }
 bool remembers_any() { return solver.remembers.w; }
 real softest(int k) { return solver.softest[k]; }
+real softest_of_edge(int e, int k) { return e >= level.held && e < level.loose ? solver.softest.z : softest(k); }
+real bare_softest_of_edge(int e) { return e >= level.held && e < level.loose ? solver.compliance.z : solver.softest.w; }
 real softest_limit() { return solver.softest.w; }
 real compliance(int k) { return solver.compliance[k]; }
+real polish_reach() { return solver.curve_damping.w; }
 real stiffest_limit() { return solver.compliance.w; }
 
 bool is_last_look() { return push.detail == 1u; }
