@@ -28,20 +28,20 @@ Scene hung_sheet(std::uint32_t n, double stiffness, std::uint32_t substeps, doub
     return scene;
 }
 
-struct Run {
+struct SheetRun {
     double longest = 0, most_gained = 0;  ///< of a frame: stretch, and J of energy
     double first_energy = 0, energy = 0;  ///< J
-    Measures last;
+    FrameMeasures last;
     SolverReport solver;
 };
 
-double energy_of(const Measures& m) { return m.kinetic_energy + m.elastic_energy + m.potential_energy; }
+double energy_of(const FrameMeasures& m) { return m.kinetic_energy + m.elastic_energy + m.potential_energy; }
 
-Run run(const Scene& scene, int frames)
+SheetRun run(const Scene& scene, int frames)
 {
     Simulation simulation(scene, test::on(Backend::cpu));
     test::Largest longest, gained;
-    Run result;
+    SheetRun result;
     result.first_energy = result.energy = energy_of(simulation.report().measures);
     for (int frame = 0; frame < frames; ++frame) {
         simulation.advance(1 / 60.0);
@@ -65,7 +65,7 @@ TEST(AcadSheet, SoftOnesLoseEnergyAndKeepToTheirThreshold)
         std::uint32_t substeps;
     };
     for (const Case& c : {Case{10, 0}, Case{10, 4}, Case{10, 1}, Case{100, 1}}) {
-        const Run sheet = run(hung_sheet(24, c.stiffness, c.substeps, 0.5), 150);
+        const SheetRun sheet = run(hung_sheet(24, c.stiffness, c.substeps, 0.5), 150);
         SCOPED_TRACE(testing::Message() << c.stiffness << " N/m, substeps " << c.substeps);
         EXPECT_LE(sheet.longest, 0.12);
         EXPECT_GT(sheet.longest, 0.1 - 1e-4);  // the threshold is reached
@@ -84,7 +84,7 @@ TEST(AcadSheet, InLongStepsRestsAsSpringsAloneDo)
     Scene springs = scene;
     springs.method = Method::mass_spring;
     springs.time.substeps = 0;
-    const Run sheet = run(scene, 480), alone = run(springs, 480);
+    const SheetRun sheet = run(scene, 480), alone = run(springs, 480);
     EXPECT_NEAR(sheet.last.mean_stretch, alone.last.mean_stretch, 0.01 * 0.1);
     EXPECT_NEAR(sheet.last.max_stretch, alone.last.max_stretch, 0.03);
     EXPECT_LT(sheet.last.max_speed, 0.05);  // a free hem of implicit steps that trembles has 1 m/s

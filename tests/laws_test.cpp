@@ -120,9 +120,9 @@ TEST(Spring, BendingIsASpringOfNoLength)
 
 const D::LimitCurve limit_curves[] = {
     {0, 50, 0.02, 4000, 4000, 0, 0, 0.02},      // a stiffness below the limit, resisting both ways beyond it
-    {0, 0, 0.01, 4000, 0, 0, 0, -1},          // tension alone
-    {1, 70, 0, 0, 0, 0, 0, 0},               // a plain spring
-    {2, 0, 0, 4000, 0, 0, 0, -1},             // a thread that does not give
+    {0, 0, 0.01, 4000, 0, 0, 0, -1},            // tension alone
+    {1, 70, 0, 0, 0, 0, 0, 0},                  // a plain spring
+    {2, 0, 0, 4000, 0, 0, 0, -1},               // a thread that does not give
     {0, 50, 0.02, 4000, 4000, 0, 0.004, 0.02},  // those that remember a force
     {2, 0, 0, 4000, 0, 0, 0.004, -1},
 };

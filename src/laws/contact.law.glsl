@@ -161,12 +161,14 @@ LAW Motion contact_step(Motion now, Motion next, Collider collider, real thickne
         after.velocity = contact_velocity(next.velocity, surface_velocity, n, collider.friction);
         after.position = contact_position(next.position, n, gap, next.velocity, after.velocity, dt);
         if (collider.response == 2) {
-            real before = thickness - collider_gap(collider, now.position + surface_velocity * dt).w;
+            vec3 carried = now.position + surface_velocity * dt;
+            real before = thickness - collider_gap(collider, carried).w;
             mask sunk = sunk_depth(before) > 0.0f;
             real speed = dot3(next.velocity - surface_velocity, n), risen = rising_speed(speed, real(0.0f) - gap, dt);
             vec3 rising = after.velocity + n * (largest(risen, real(0.0f)) - largest(speed, real(0.0f)));
+            vec3 let_out = next.position + (rising - next.velocity) * dt;
             after.velocity = choose(sunk, rising, after.velocity);
-            after.position = choose(sunk, next.position + (rising - next.velocity) * dt, after.position);
+            after.position = choose(sunk, let_out, after.position);
         }
     }
     next.position = choose(touching, after.position, next.position);

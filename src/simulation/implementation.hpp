@@ -156,6 +156,7 @@ public:
     double loss_sum = 0;
     Report report;
     double newton_sum = 0, iterations_sum = 0, active_sum = 0;  ///< of the solver, over the run
+    std::vector<double> stretches_before;  ///< of each cloth, when the steps at hand began
     /// By collider: 1 while nodes that started in it, or that it was put over, are on their way out.
     std::vector<std::uint8_t> lets_rise;
     std::vector<std::string> start_warnings;  ///< what there is to say of the scene's start

@@ -190,12 +190,12 @@ void Simulation::Implementation::run_steps(std::uint32_t steps, double step)
     memory_step = step;
     const Program& program = frame_program(steps);
     const std::uint32_t from_parity = parity;
-    std::vector<double> stretches;
-    for (std::uint32_t m = 0; m < models.size(); ++m) stretches.push_back(runner->measures(m).max_stretch);
+    stretches_before.resize(models.size());
+    for (std::uint32_t m = 0; m < models.size(); ++m) stretches_before[m] = runner->measures(m).max_stretch;
     run_program(program, steps, step);
     parity = program.parity_after;
     for (std::uint32_t m = 0; m < models.size(); ++m)
-        if (is_implicit(models[m])) cut_steps(m, steps, step, from_parity, stretches[m]);
+        if (is_implicit(models[m])) cut_steps(m, steps, step, from_parity, stretches_before[m]);
     report.simulated_seconds = on_frame(report.simulated_seconds + steps * step, steps * step);
     report.steps += steps;
     if (uses_solver(stepped_method(scene))) count_solves();

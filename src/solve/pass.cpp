@@ -48,7 +48,7 @@ SumSlots sum_slots_of(Pass pass)
         case Pass::step_begin: return {sum_load, 2};  // and the way
         case Pass::mesh_limits:
         case Pass::sheet_limits: return {sum_active, 2};  // and how far beyond
-        case Pass::sheet_marks: return {sum_active, 2};  // and marked springs
+        case Pass::sheet_marks: return {sum_active, 2};   // and marked springs
         case Pass::mesh_multiply:
         case Pass::sheet_multiply: return {sum_renewed, 1};
         case Pass::contact_change: return {sum_contact_change, 1};

@@ -43,13 +43,10 @@ struct Curve {
         return e > limit * rest || (compressed > 0 && -e > limit * rest);
     }
     /// "A slack spring keeps its stiffness along its direction": all of it, or, where it has a stiffness
-    /// below its limit, from half of the limit on.
+    /// below its limit, none.
     double kept(double length) const
     {
-        if (acts(length)) return 0;
-        const double e = length - rest;
-        const bool near = std::max(e, compressed > 0 ? -e : e) > limit * rest / 2;
-        return below > 0 && limit > 0 && !near ? 0 : std::max(beyond, compressed);
+        return acts(length) || (below > 0 && limit > 0) ? 0 : std::max(beyond, compressed);
     }
 };
 
@@ -129,10 +126,7 @@ void ImplicitStep::add_spring(std::size_t spring_class, int i, int j, const std:
     corners_.emplace_back([=](const Vector& t) {
         const double e = (before + t.segment<3>(3 * j) - t.segment<3>(3 * i)).norm() - rest;
         if (curve.beyond == 0) return std::abs(e);  // where the force turns round
-        double nearest = std::abs(e);
-        for (const double part_of_limit : {0.5, 1.0})
-            nearest = std::min(nearest, std::abs(std::abs(e) - part_of_limit * curve.limit * rest));
-        return nearest;
+        return std::min(std::abs(e), std::abs(std::abs(e) - curve.limit * rest));
     });
     add_pair(
         i, j, between, folds,

@@ -169,7 +169,7 @@ KERNEL void gather_row(SpringRows& springs, SumSlots slots, int row, const RowSp
 }
 
 /// sheet_limits where stretch alone counts and nothing is remembered, as in nearly every step of ACAD: a
-/// group of columns in which no spring is beyond leaves no sum, and is left as soon as that is known.
+/// group of columns in which no spring is beyond leaves empty sums, and is left as soon as that is known.
 void limits(Pass pass, int begin, int end)
 {
     const bool plain = sheet_has(0) && sheet_has(1) && !acad_has_memory() && !acad_has_compression();
@@ -178,7 +178,8 @@ void limits(Pass pass, int begin, int end)
     SolverKernels self = *this;
     for_each_group(begin, end, [&](int row, int first, int last) {
         if (self.is_within_limits(row, first, last))
-            context.parts[int(slots.first) * context.part_stride + part_of(row, first)] = Number(0);
+            for (unsigned slot = slots.first; slot < slots.first + slots.count; ++slot)
+                context.parts[int(slot) * context.part_stride + part_of(row, first)] = Number(0);
         else
             self.template nodes_of_group<&SolverKernels::sheet_limits>(slots, row, first, last);
     });

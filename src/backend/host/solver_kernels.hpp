@@ -182,9 +182,14 @@ struct SolverKernels {
     LimitCurve class_curve(int k) const
     {
         const auto& c = constants.curves[k];
-        return {c.kind,           spread(c.below),      spread(c.limit),
-                spread(c.beyond), spread(c.compressed), spread(c.damping),
-                spread(Number(0)), spread(c.reach)};
+        return {c.kind,
+                spread(c.below),
+                spread(c.limit),
+                spread(c.beyond),
+                spread(c.compressed),
+                spread(c.damping),
+                spread(Number(0)),
+                spread(c.reach)};
     }
     real sheet_rest(int k) const
     {

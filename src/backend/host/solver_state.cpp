@@ -60,8 +60,8 @@ void set_acad(SolverConstants<T>& c, const ClothModel& model)
     c.acad_near_below2 = below(near);
     c.acad_reach = number(to_rest ? 0 : 1);
     c.has_damping = false;  // springs have damped in their own step
-    // What the correction shortens, it must be free to.
-    for (auto& curve : c.curves) curve.reach = number(0.9 * curve.limit);
+    // Springs have had their say: what is not at its limit is free.
+    for (auto& curve : c.curves) curve.reach = curve.limit;
 }
 
 }  // namespace
