@@ -69,7 +69,8 @@ TEST(AcadSheet, SoftOnesLoseEnergyAndKeepToTheirThreshold)
         SCOPED_TRACE(testing::Message() << c.stiffness << " N/m, substeps " << c.substeps);
         EXPECT_LE(sheet.longest, 0.12);
         EXPECT_GT(sheet.longest, 0.1 - 1e-4);  // the threshold is reached
-        // Springs' own steps are symplectic: their energy swings, by a part of it. It is at most 0.3 J here.
+        // Steps of springs alone are symplectic: energy swings a little around its mean. The sheet that
+        // boiled won 1.6 J of 9.8 J in a frame.
         EXPECT_LE(sheet.most_gained, 1e-3 * sheet.first_energy);
         EXPECT_LT(sheet.energy, 0.7 * sheet.first_energy);
         EXPECT_GT(sheet.solver.active_max, 0U);

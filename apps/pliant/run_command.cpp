@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "files/formatted.hpp"
 #include "files/numbered_name.hpp"
 #include "interruption.hpp"
 #include "painter.hpp"
@@ -16,13 +17,6 @@
 
 namespace pliant::tool {
 namespace {
-
-std::string formatted(const char* format, double value)
-{
-    char text[64];
-    std::snprintf(text, sizeof text, format, value);
-    return text;
-}
 
 std::string with_commas(std::uint64_t n)
 {

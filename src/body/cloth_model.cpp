@@ -326,7 +326,7 @@ double ClothModel::softest_limit(double step_length) const
     const double weight = std::sqrt(dot(parameters.gravity, parameters.gravity)) / length_across;
     // An update is stable from a quarter of 4.6 on; one of steps of second order from 6.5 on
     // (docs/physics.md, "Constraints").
-    const double firm = meets_colliders ? 18.4 : is_second_order() ? 13 : 4.6;
+    const double firm = meets_colliders ? firm_limit : is_second_order() ? 13 : 4.6;
     return line * std::max(firm / (step_length * step_length), 500 * weight);
 }
 

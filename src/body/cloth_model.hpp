@@ -117,6 +117,9 @@ public:
     /// N/m: the softest stiffness by which such a limit is made right, in steps of so many seconds; and of
     /// springs of a class, with their compliance.
     double softest_limit(double step_length) const;
+    /// The softest limits, of m n^2 / dt^2, that pass a pull on through all n springs across the cloth in a
+    /// step, where colliders hold it up (docs/physics.md, "Constraints").
+    static constexpr double firm_limit = 18.4;
     /// How many times as stiff those are on a mesh that hold a node to a pinned one: what hangs there hangs
     /// by them alone, and a jerk stretches them by the change of force over their stiffness.
     static constexpr double held_limit = 4;

@@ -48,12 +48,14 @@ KERNEL real mesh_taut(SpringShare spring)
     return choose(magnitude(spring.multiplier) > 0.0f, real(1.0f), real(0.0f));
 }
 
-// A sum of blocks of this level: the row of pairs that `start` points at.
-KERNEL Symmetric mesh_sum_of_blocks(int start)
+// A sum of blocks, of this level or the finer one: the row of pairs that `start` points at.
+KERNEL Symmetric mesh_sum_of_blocks(bool of_finer, int start)
 {
     Symmetric a = symmetric_diagonal(real(0.0f));
-    for (int k = topology(start); k < topology(start + 1); k += 2)
-        a = plus_scaled(a, edge_load6(edge_block, topology(k)), topology_weight(k + 1));
+    for (int k = topology(start), end = topology(start + 1); k < end; k += 2) {
+        int e = topology(k);
+        a = plus_scaled(a, of_finer ? finer_edge_load6(edge_block, e) : edge_load6(edge_block, e), topology_weight(k + 1));
+    }
     return a;
 }
 
@@ -94,7 +96,7 @@ KERNEL void mesh_multiply(int e)
 KERNEL void mesh_fold(int e)
 {
     if (e >= level.loose) return;
-    edge_store6(edge_block, e, mesh_sum_of_blocks(level.fold_start + e));
+    edge_store6(edge_block, e, mesh_sum_of_blocks(false, level.fold_start + e));
 }
 
 // Forces and the operator of a node, from itself and from its springs.
@@ -192,19 +194,9 @@ KERNEL void mesh_residual(int o)
     leave_residual(o, mesh_row_product(source_plane(), o));
 }
 
-// A sum of blocks of the finer level: the row of pairs that `start` points at.
-KERNEL Symmetric mesh_galerkin_sum(int start)
-{
-    Symmetric a = symmetric_diagonal(real(0.0f));
-    int end = topology(start + 1);
-    for (int k = topology(start); k < end; k += 2)
-        a = plus_scaled(a, finer_edge_load6(edge_block, topology(k)), topology_weight(k + 1));
-    return a;
-}
-
 KERNEL void mesh_coarsen_couplings(int e)
 {
-    edge_store6(edge_block, e, mesh_galerkin_sum(level.coupling_start + e));
+    edge_store6(edge_block, e, mesh_sum_of_blocks(true, level.coupling_start + e));
 }
 
 KERNEL void mesh_coarsen_nodes(int o)

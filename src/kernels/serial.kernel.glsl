@@ -7,8 +7,8 @@ KERNEL void solve_reset()
     for (int k = scalar_solves; k < scalar_count; ++k) set_scalar(k, real(0.0f));
 }
 
-// ACAD: a step that stretches no spring too far has nothing to solve. One that does moves nodes by about as much as
-// springs are too long, and may so stretch others too far: those within that reach are marked, too.
+// ACAD: a step that stretches no spring too far has nothing to solve. The correction of one that does moves nodes by about
+// as much as springs are too long, and may stretch other springs too far. Those within that reach are marked, too.
 KERNEL void acad_check()
 {
     set_scalar(scalar_idle, real(total(sum_active) > 0.0f ? 0.0f : 1.0f));
@@ -96,11 +96,10 @@ KERNEL void search_begin()
     set_scalar(scalar_step, real(1.0f));
 }
 
-// Armijo's rule, with room for the rounding of the sums. A step that is refused is shortened to 1/4, and then by its own
-// square: a spring that is about to reach its limit can take a thousandth of a step that knows of no limit. The last try is
-// no step at all, and is taken. Either the whole
-// energy must fall or that without contact: a node that meets a collider within an iteration does not hold up the cloth,
-// for the next one sets it right.
+// Armijo's rule, with room for the rounding of the sums. A step that is refused is shortened to 1/4, and then squared from
+// try to try: it knows of no limit ahead, and a spring that is about to reach its limit may bear but a thousandth of it. The
+// last try is no step at all, and is taken. Either the whole energy must fall or that without contact: a node that meets a
+// collider within an iteration does not hold up the cloth, for the next one sets it right.
 KERNEL void search_check()
 {
     real energy = total(sum_spring_energy) + total(sum_node_energy);

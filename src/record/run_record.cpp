@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "files/formatted.hpp"
 #include "pliant/extremes.hpp"
 
 namespace pliant {
@@ -139,19 +140,15 @@ bool has_diverged(const FrameMeasures& measures) { return measures.max_stretch >
 std::vector<std::string> RunSummary::warnings(const Simulation& simulation) const
 {
     std::vector<std::string> sentences;
-    const auto add = [&](const char* format, double value) {
-        char text[320];
-        std::snprintf(text, sizeof text, format, value);
-        sentences.push_back(text);
-    };
     const Scene& scene = simulation.scene();
     const SolverReport& solver = simulation.report().solver;
-    if (solver.used() && !(solver.residual_max <= 1))
-        add("steps were not solved: the largest residual is %.3g of what inertia and gravity ask of a step; "
-            "take "
-            "more substeps (--set time.substeps=N) or iterations (--set "
-            "newton_multigrid.newton_iterations=N)",
-            solver.residual_max);
+    if (solver.used() && !solver.is_solved())
+        sentences.push_back(
+            formatted("steps were not solved: the largest residual is %.3g of what inertia "
+                      "and gravity ask of a step; take more substeps (--set "
+                      "time.substeps=N) or iterations (--set "
+                      "newton_multigrid.newton_iterations=N)",
+                      solver.residual_max));
     double limit = 0, thickness = 0;
     for (std::size_t c = 0; c < scene.cloth_count(); ++c) {
         const Springs& springs = scene.cloth(c).springs;
@@ -160,17 +157,18 @@ std::vector<std::string> RunSummary::warnings(const Simulation& simulation) cons
     }
     constexpr double room = 0.05;
     if (solver.used() && scene.method == Method::constraint && max_stretch_peak_ > limit + room)
-        add("constraints were stretched by %.3g %%: pins and colliders pull the cloth further than it "
-            "reaches, or "
-            "faster than a step can follow",
-            100 * max_stretch_peak_);
+        sentences.push_back(
+            formatted("constraints were stretched by %.3g %%: pins and colliders pull the "
+                      "cloth further than it reaches, or faster than a step can follow",
+                      100 * max_stretch_peak_));
     constexpr double noticeable = 0.005;  // m, beyond the thickness
     if (max_penetration_ > std::max(thickness + noticeable, start_penetration_))
-        add("nodes were up to %.3g m inside colliders: the cloth is pulled or pushed there harder than "
-            "contact holds, "
-            "or faster than a step can follow; take more substeps (--set time.substeps=N), or give the cloth "
-            "room",
-            max_penetration_ - thickness);
+        sentences.push_back(
+            formatted("nodes were up to %.3g m inside colliders: the cloth is pulled or "
+                      "pushed there harder than contact holds, or faster than a step can "
+                      "follow; take more substeps (--set time.substeps=N), or give the "
+                      "cloth room",
+                      max_penetration_ - thickness));
     return sentences;
 }
 

@@ -2,20 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "backend/host/plain_cloth.hpp"
 #include "body/collider_motion.hpp"
+#include "files/formatted.hpp"
 
 namespace pliant {
 namespace {
 
-template <class... Values>
-std::string formatted(const char* format, Values... values)
+/// Calls visit(gap), in m, for each node that is not pinned, as long as that returns true.
+template <class Visit>
+void visit_gaps(const Collider& collider, const ClothModel& model, std::span<const Vec3> positions,
+                double time, const Visit& visit)
 {
-    char text[256];
-    std::snprintf(text, sizeof text, format, values...);
-    return text;
+    const auto shape = make_collider<double>(placed_at(collider, time));
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        if (!(model.inverse_mass(i) > 0)) continue;
+        const Vec3d x = to_double(positions[i]) + model.origin;
+        if (!visit(Laws<double>::collider_gap(shape, {x.x, x.y, x.z}).w)) return;
+    }
 }
 
 }  // namespace
@@ -24,15 +29,12 @@ void find_sunk(const Scene& scene, const ClothModel& model, std::span<const Vec3
                std::vector<std::uint8_t>& sunk)
 {
     sunk.resize(scene.colliders.size());
-    for (std::size_t k = 0; k < sunk.size(); ++k) {
-        const auto shape = make_collider<double>(placed_at(scene.colliders[k], time));
-        for (std::size_t i = 0; sunk[k] == 0 && i < positions.size(); ++i) {
-            if (!(model.inverse_mass(i) > 0)) continue;
-            const Vec3d x = to_double(positions[i]) + model.origin;
-            const double gap = Laws<double>::collider_gap(shape, {x.x, x.y, x.z}).w;
-            if (model.parameters.thickness - gap > deepest_contact) sunk[k] = 1;
-        }
-    }
+    for (std::size_t k = 0; k < sunk.size(); ++k)
+        if (sunk[k] == 0)
+            visit_gaps(scene.colliders[k], model, positions, time, [&](double gap) {
+                if (model.parameters.thickness - gap > deepest_contact) sunk[k] = 1;
+                return sunk[k] == 0;
+            });
 }
 
 std::vector<std::string> starts_inside(const Scene& scene, const Cloth& cloth, const ClothModel& model)
@@ -40,17 +42,15 @@ std::vector<std::string> starts_inside(const Scene& scene, const Cloth& cloth, c
     constexpr double noticeable = 1e-4;  // m; what lies on a surface is rounded
     std::vector<std::string> sentences;
     for (std::size_t k = 0; k < scene.colliders.size(); ++k) {
-        const auto shape = make_collider<double>(placed_at(scene.colliders[k], 0));
         std::size_t count = 0;
         double deepest = 0;
-        for (std::size_t i = 0; i < model.positions.size(); ++i) {
-            if (!(model.inverse_mass(i) > 0)) continue;
-            const Vec3d x = to_double(model.positions[i]) + model.origin;
-            const double depth = -Laws<double>::collider_gap(shape, {x.x, x.y, x.z}).w;
-            if (!(depth > noticeable)) continue;
-            ++count;
-            deepest = std::max(deepest, depth);
-        }
+        visit_gaps(scene.colliders[k], model, model.positions, 0, [&](double gap) {
+            if (-gap > noticeable) {
+                ++count;
+                deepest = std::max(deepest, -gap);
+            }
+            return true;
+        });
         if (count == 0) continue;
         sentences.push_back((model.is_body() ? "body '" : "cloth '") + cloth.name + "': " +
                             formatted("%zu nodes start inside colliders[%zu], the deepest by %.3g m: they "

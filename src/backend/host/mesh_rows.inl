@@ -239,9 +239,9 @@ KERNEL void multiply_lanes(int e)
         Record::differences(states, i, j) + Record::differences(states + MeshLanes::vector_size, i, j);
     const real spring_class = Lanes<T>::load(lanes().spring_class + e);
     const mask is_there = Lanes<T>::first_lanes(level.edges - e);
+    const int only = lanes().class_of_group[e / sum_columns];
     for (int k = 0; k < lanes().class_count; ++k) {
         const int renewed_class = lanes().classes[k];
-        const int only = lanes().class_of_group[e / sum_columns];
         if (!remembers(renewed_class) || (only >= 0 && only != renewed_class)) continue;
         const RenewedLimit limit = mesh_renewed(e, renewed_class, d);
         const mask renews = both(is_there, is_number(spring_class, renewed_class));

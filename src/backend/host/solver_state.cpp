@@ -15,15 +15,15 @@ namespace {
 /// The limits of ACAD are no stiffer than the step can solve: 1 / (1 / K + a) with the compliance a.
 ///   Steps that are corrected: K = 300 m / dt^2. A node that comes with the length of a spring a step is
 ///   stopped within 6 % of it.
-///   Implicit steps, longer: K = 18.4 m n^2 / dt^2. A pull passes through the n springs across the cloth
-///   in a step (ClothModel::softest_limit).
+///   Implicit steps, longer: K is that of ClothModel::firm_limit. A pull passes through all springs
+///   across the cloth in a step.
 /// 1e6 N/m on soft springs is 10,000 m / dt^2 and more. What a solve leaves open of that wins energy, and the
 /// cloth boils.
 template <class T>
 void soften_limits_of_acad(SolverConstants<T>& c, const ClothModel& model, double step_length)
 {
     const double in_a_row = model.springs_across * model.springs_across;
-    const double most = (model.corrects_steps() ? 300 : 18.4 * in_a_row) * model.mean_mass;
+    const double most = (model.corrects_steps() ? 300 : ClothModel::firm_limit * in_a_row) * model.mean_mass;
     const auto softened = [&](T k) {
         return static_cast<T>(k * most / (most + k * step_length * step_length));
     };
@@ -60,7 +60,7 @@ void set_acad(SolverConstants<T>& c, const ClothModel& model)
     c.acad_near_below2 = below(near);
     c.acad_reach = number(to_rest ? 0 : 1);
     c.has_damping = false;  // springs have damped in their own step
-    // Springs have had their say: what is not at its limit is free.
+    // The springs' own forces have acted already. Below its limit nothing holds a spring.
     for (auto& curve : c.curves) curve.reach = curve.limit;
 }
 
