@@ -1,45 +1,96 @@
-# Compiles every shader of some folders to SPIR-V as numbers, to be included as "shaders/NAME.comp.inc".
+# Compiles every shader to SPIR-V as numbers, to be included as "shaders/NAME.comp.inc".
 find_program(GLSLC glslc REQUIRED)
 
-# Passes that --fast-math has a second module of, "shaders/fast/NAME.comp.inc".
-set(PLIANT_FAST_SHADERS sheet_step sheet_steps spring_force list_step stage_step ring_step volume_gather volume_step
-    volume_cubic volume_correct)
+# What the table of passes says for shaders: `fast_passes` have a second module for --fast-math; each entry of
+# `solver_passes` is "NAME UNIT TEXT", a row that solver_pass.comp is compiled for.
+function(pliant_read_passes table)
+    file(STRINGS ${table} rows REGEX "^[A-Z]+_PASS\\([a-z_]+,")
+    foreach(row IN LISTS rows)
+        string(REGEX MATCH "^([A-Z]+)_PASS\\(([a-z_]+), ([a-z_]+), ([a-z_]+), ([a-z]+)" match "${row}")
+        set(family ${CMAKE_MATCH_1})
+        set(name ${CMAKE_MATCH_2})
+        set(third ${CMAKE_MATCH_3})
+        set(fourth ${CMAKE_MATCH_4})
+        set(fifth ${CMAKE_MATCH_5})
+        list(APPEND passes ${name})
+        if(family STREQUAL "CLOTH" OR family STREQUAL "BODY")
+            if(fifth STREQUAL "fast")
+                list(APPEND fast ${name})
+            endif()
+        elseif(family STREQUAL "SINGLE")
+            list(APPEND solver "${name} ${fourth} ${fifth}")
+        else()
+            list(APPEND solver "${name} ${third} ${fifth}")
+        endif()
+    endforeach()
+    set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${table})
+    set(passes ${passes} PARENT_SCOPE)
+    set(fast_passes ${fast} PARENT_SCOPE)
+    set(solver_passes ${solver} PARENT_SCOPE)
+endfunction()
+
+# The command that makes shaders/VARIANT.inc of a source, by flags.
+function(pliant_compile_shader variant source)
+    set(output ${PROJECT_BINARY_DIR}/generated/shaders/${variant}.inc)
+    get_filename_component(folder ${source} DIRECTORY)
+    add_custom_command(
+        OUTPUT ${output}
+        COMMAND ${GLSLC} --target-env=vulkan1.1 ${ARGN} -Werror -mfmt=num -MD -MF ${output}.d -MT ${output}
+                -I ${PROJECT_SOURCE_DIR}/src -I ${PROJECT_SOURCE_DIR}/src/laws -I ${folder} ${source} -o ${output}
+        DEPENDS ${source} DEPFILE ${output}.d
+        COMMENT "Compiling ${variant}" VERBATIM)
+    set(outputs ${outputs} ${output} PARENT_SCOPE)
+endfunction()
+
+# Text that makes an array of each module, as C++.
+function(pliant_array_of_module name variant text)
+    set(${text} "${${text}}constexpr std::uint32_t ${name}[] = {\n#include \"shaders/${variant}.inc\"\n};\n" PARENT_SCOPE)
+endfunction()
 
 function(pliant_add_shaders target)
+    set(outputs)
     set(include_directory ${PROJECT_BINARY_DIR}/generated)
     file(MAKE_DIRECTORY ${include_directory}/shaders/fast)
-    set(outputs)
+    pliant_read_passes(${PROJECT_SOURCE_DIR}/src/solve/passes.def)
+    list(APPEND passes sheet_steps)  # several calls of sheet_step in a dispatch
+    list(APPEND fast_passes sheet_steps)
+    # The optimiser fuses products and sums before we can forbid it (with_exact_arithmetic in shader_code.hpp),
+    # so that compute shaders leave optimising to the driver.
     foreach(folder IN LISTS ARGN)
         file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.comp ${folder}/*.vert ${folder}/*.frag)
         foreach(source IN LISTS sources)
             get_filename_component(name ${source} NAME)
-            # The optimiser fuses products and sums before we can forbid it (with_exact_arithmetic in shader_code.hpp),
-            # so that compute shaders leave optimising to the driver.
-            set(optimise -O)
-            if(name MATCHES "\\.comp$")
-                set(optimise -O0)
-            endif()
-            set(variants shaders/${name})
             get_filename_component(pass ${source} NAME_WE)
-            if(name MATCHES "\\.comp$" AND pass IN_LIST PLIANT_FAST_SHADERS)
-                list(APPEND variants shaders/fast/${name})
-            endif()
-            foreach(variant IN LISTS variants)
-                set(arithmetic ${optimise})
-                if(variant MATCHES "/fast/")
-                    set(arithmetic -O -DFAST_MATH)
+            if(NOT name MATCHES "\\.comp$")
+                pliant_compile_shader(${name} ${source} -O)
+            elseif(NOT pass STREQUAL "solver_pass")
+                pliant_compile_shader(${name} ${source} -O0)
+                if(pass IN_LIST fast_passes)
+                    pliant_compile_shader(fast/${name} ${source} -O -DFAST_MATH)
                 endif()
-                set(output ${include_directory}/${variant}.inc)
-                add_custom_command(
-                    OUTPUT ${output}
-                    COMMAND ${GLSLC} --target-env=vulkan1.1 ${arithmetic} -Werror -mfmt=num -MD -MF ${output}.d -MT ${output}
-                            -I ${PROJECT_SOURCE_DIR}/src -I ${PROJECT_SOURCE_DIR}/src/laws -I ${folder} ${source} -o ${output}
-                    DEPENDS ${source} DEPFILE ${output}.d
-                    COMMENT "Compiling ${variant}" VERBATIM)
-                list(APPEND outputs ${output})
-            endforeach()
+            endif()
         endforeach()
     endforeach()
+    foreach(row IN LISTS solver_passes)
+        separate_arguments(row)
+        list(GET row 0 name)
+        list(GET row 1 unit)
+        list(GET row 2 text)
+        pliant_compile_shader(${name}.comp ${PROJECT_SOURCE_DIR}/src/backend/vulkan/shaders/solver_pass.comp -O0
+                              -DPASS=${name} -DOVER=OVER_${unit} -DUNIT_${unit} -DTEXT_${text})
+    endforeach()
+
+    set(modules "// Made from src/solve/passes.def by cmake/PliantShaders.cmake.\n")
+    foreach(name IN LISTS passes)
+        pliant_array_of_module(${name} ${name}.comp modules)
+    endforeach()
+    string(APPEND modules "namespace fast {\n")
+    foreach(name IN LISTS fast_passes)
+        pliant_array_of_module(${name} fast/${name}.comp modules)
+    endforeach()
+    string(APPEND modules "}  // namespace fast\n")
+    file(CONFIGURE OUTPUT ${include_directory}/shaders/modules.inc CONTENT "${modules}" @ONLY)
+
     add_custom_target(${target}_shaders DEPENDS ${outputs})
     add_dependencies(${target} ${target}_shaders)
     target_include_directories(${target} PRIVATE ${include_directory})

@@ -2,6 +2,9 @@
 // writes, there is one between them, found here call by call and pair by pair.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
+
 #include "backend/vulkan/barrier_plan.hpp"
 #include "pliant/mesh_generators.hpp"
 #include "solve/frame.hpp"
@@ -25,14 +28,21 @@ std::pair<std::uint32_t, std::string> memory_of(const Call& call, Resource resou
 
 bool depend_on_each_other(const Call& a, const Call& b)
 {
-    const auto meet = [&](auto one, auto other) {
-        for (const Resource r : one)
-            for (const Resource s : other)
-                if (memory_of(a, r) == memory_of(b, s)) return true;
-        return false;
+    const auto memories = [](const Call& call, std::span<const Resource> resources) {
+        std::set<std::pair<std::uint32_t, std::string>> result;
+        for (const Resource r : resources) result.insert(memory_of(call, r));
+        return result;
     };
-    const PassDescription &p = description_of(a.pass), &q = description_of(b.pass);
-    return meet(p.writes, q.reads) || meet(p.writes, q.writes) || meet(p.reads, q.writes);
+    const auto reads = [&](const Call& call) {
+        auto result = memories(call, description_of(call.pass).reads);
+        if (call.guard != Guard::none) result.insert(memory_of(call, Resource::scalars));
+        return result;
+    };
+    const auto writes = [&](const Call& call) { return memories(call, description_of(call.pass).writes); };
+    const auto meet = [](const auto& one, const auto& other) {
+        return std::any_of(one.begin(), one.end(), [&](const auto& m) { return other.count(m) > 0; });
+    };
+    return meet(writes(a), reads(b)) || meet(writes(a), writes(b)) || meet(reads(a), writes(b));
 }
 
 Scene scene_of(Method method, bool body)

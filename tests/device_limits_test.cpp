@@ -27,7 +27,7 @@ constexpr std::size_t most_storage_buffers = 10;
 
 struct Shader {
     std::string name;
-    vulkan::Family family;
+    vulkan::PassLayout layout;
     ShaderNeeds needs;
 };
 
@@ -35,7 +35,7 @@ std::vector<Shader> all_shaders()
 {
     std::vector<Shader> shaders;
     const auto add = [&](const std::string& name, Pass pass, std::span<const std::uint32_t> code) {
-        if (!code.empty()) shaders.push_back({name, vulkan::family_of(pass), vulkan::needs_of(code)});
+        if (!code.empty()) shaders.push_back({name, vulkan::layout_of(pass), vulkan::needs_of(code)});
     };
     for (std::uint32_t p = 0; p < all_passes().size(); ++p) {
         const auto pass = static_cast<Pass>(p);
@@ -52,7 +52,7 @@ TEST(Layouts, HaveEveryBufferThatTheirShadersUse)
     std::set<std::uint32_t> seen;
     for (const Shader& shader : all_shaders()) {
         std::set<std::uint32_t> storage, uniform;
-        for (const Binding binding : vulkan::bindings_of(shader.family))
+        for (const Binding binding : vulkan::bindings_of(shader.layout))
             (vulkan::is_uniform(binding) ? uniform : storage).insert(static_cast<std::uint32_t>(binding));
         for (const std::uint32_t binding : shader.needs.storage_buffers)
             EXPECT_TRUE(storage.count(binding) > 0)
@@ -68,25 +68,25 @@ TEST(Layouts, HaveEveryBufferThatTheirShadersUse)
 
 TEST(Layouts, HaveNothingThatNoShaderOfTheirsUses)
 {
-    for (std::uint32_t f = 0; f < vulkan::family_count; ++f) {
+    for (std::uint32_t f = 0; f < vulkan::layout_count; ++f) {
         std::set<std::uint32_t> used;
         for (const Shader& shader : all_shaders()) {
-            if (shader.family != static_cast<vulkan::Family>(f)) continue;
+            if (shader.layout != static_cast<vulkan::PassLayout>(f)) continue;
             used.insert(shader.needs.storage_buffers.begin(), shader.needs.storage_buffers.end());
             used.insert(shader.needs.uniform_buffers.begin(), shader.needs.uniform_buffers.end());
         }
-        for (const Binding binding : vulkan::bindings_of(static_cast<vulkan::Family>(f)))
+        for (const Binding binding : vulkan::bindings_of(static_cast<vulkan::PassLayout>(f)))
             EXPECT_TRUE(used.count(static_cast<std::uint32_t>(binding)) > 0)
-                << "family " << f << " binds " << static_cast<std::uint32_t>(binding);
+                << "layout " << f << " binds " << static_cast<std::uint32_t>(binding);
     }
 }
 
 TEST(Layouts, HaveAtMostTenStorageBuffersEach)
 {
-    for (std::uint32_t f = 0; f < vulkan::family_count; ++f) {
-        const auto family = static_cast<vulkan::Family>(f);
-        EXPECT_GT(vulkan::bindings_of(family).size(), 0u);
-        EXPECT_LE(vulkan::needs_of(family).storage_buffers, most_storage_buffers) << "family " << f;
+    for (std::uint32_t f = 0; f < vulkan::layout_count; ++f) {
+        const auto layout = static_cast<vulkan::PassLayout>(f);
+        EXPECT_GT(vulkan::bindings_of(layout).size(), 0u);
+        EXPECT_LE(vulkan::needs_of(layout).storage_buffers, most_storage_buffers) << "layout " << f;
     }
     for (const Shader& shader : all_shaders())
         EXPECT_LE(shader.needs.storage_buffers.size(), most_storage_buffers) << shader.name;

@@ -157,8 +157,8 @@ KERNEL void leave_gathered(int o, SheetNode node, real energy, real taut)
 }
 
 // A spring is counted where it begins, and a force is the exact opposite at its other end: whether it is computed once
-// (SolverKernels::gathers) or at both ends, as here, makes no difference.
-KERNEL void sheet_gather(int o)
+// (SolverKernels::sheet_gather_rows) or at both ends, as here, makes no difference.
+KERNEL void sheet_forces(int o)
 {
     SheetNode node = sheet_node(o);
     real energy = real(0.0f), taut = real(0.0f);
@@ -206,6 +206,14 @@ KERNEL void sheet_energy(int o)
     sheet_node(o);
     store(plane_active, o, taut);
     sums[0] = sums[0] + energy;
+}
+
+KERNEL void sheet_gather(int o)
+{
+    if (is_last_look())
+        sheet_energy(o);
+    else
+        sheet_forces(o);
 }
 
 // B (x_i - x_j) of the coupling from a node to its forward neighbour k; j is left with the negative of it.

@@ -13,39 +13,59 @@ namespace pliant {
 enum class Pass : std::uint32_t {
 #define PASS(name, ...) name,
 #include "solve/passes.def"
-#undef PASS
 };
 
-/// What passes read and write. State comes in two copies; a call's `parity` says which one is current.
+/// What a pass is of.
+enum class PassFamily {
+    cloth,   ///< explicit steps of cloths, measures, what is drawn
+    body,    ///< soft bodies
+    solver,  ///< newton_multigrid, of every cloth
+    sheet,   ///< newton_multigrid, of sheets
+    mesh,    ///< newton_multigrid, of meshes
+    paper,   ///< the solver of the cloth paper
+};
+
+/// What one invocation of a pass works on.
+enum class PassUnit : std::uint32_t {
+#define UNIT(name, ...) name,
+#include "solve/passes.def"
+};
+const char* description_of(PassUnit unit);
+constexpr bool is_live(PassUnit unit)
+{
+    using enum PassUnit;
+    return unit == live_node || unit == live_edge || unit == live_cell || unit == live_finer_cell ||
+           unit == live_finer_node;
+}
+
+/// How the host runs a pass of a solver.
+enum class HostLoop {
+    each,           ///< unit by unit: packs of them on sheets, one at a time on meshes
+    own_rows,       ///< by a loop of its own, NAME_rows (backend/host)
+    lanes,          ///< of meshes: packs by NAME_lanes (backend/host/mesh_rows.inl)
+    records,        ///< the same; it finds neighbours in records, which are made before
+    spring_groups,  ///< the same, groups of springs by sweeps
+};
+
+/// What passes read and write.
 enum class Resource : std::uint32_t {
-    position,        ///< 3 floats per node, m
-    velocity,        ///< 3 floats per node, m/s
-    next_position,   ///< the other copy of position
-    next_velocity,   ///< the other copy of velocity
-    external_force,  ///< 3 floats per node, N
-    spring_force,    ///< 3 floats per spring, N, on its node i
-    colliders,       ///< one row per collider and step of the frame
-    measures,        ///< 8 floats per block of 256, levels of a tree one after the other
-    normal,          ///< 3 floats per node
-    strain,          ///< 1 float per node
-    slopes,      ///< 6 floats per node: changes of position and velocity, summed over the stages of a step
-    multiplier,  ///< 1 float per node, N: the largest force of a constraint at it
-    gradient,    ///< 3 floats per node of a body, m2: 6 dV/dx
-    direction,   ///< 3 floats per node of a body: how the volume constraint moves it
-    blocked,     ///< 4 floats per node of a body: the normal of what held it, and how many did
-    rate_sums,   ///< 8 floats per block of nodes, see VolumeRate of laws/volume.law.glsl
-    cubic_sums,  ///< 8 floats per block of fans, see VolumeCubic
-    bodies,      ///< 4 floats per body: its centre, m, and 6 V, m3
-    volumes,     ///< 1 float per body, m3: 6 V as it was measured last
-    solver,      ///< the arena of numbers of the constraint solver, and its scalars
+#define RESOURCE(name, ...) name,
+#include "solve/passes.def"
 };
+const char* name_of(Resource resource);
+const char* description_of(Resource resource);
 
-enum class PassSize { node, spring, block, level, cell, single, row, scan, edge, finer, live, fan, body };
+/// Sums that a pass leaves in parts.
+struct SumSlots {
+    std::uint32_t first = 0, count = 0;
+};
 
 struct PassDescription {
     const char* name;
-    PassSize size;
-    std::span<const Resource> reads, writes;
+    PassFamily family;
+    PassUnit unit;
+    std::span<const Resource> reads, writes;  ///< all of an unguarded call, sums and flags, too
+    SumSlots sums;
 };
 const PassDescription& description_of(Pass pass);
 std::span<const PassDescription> all_passes();
@@ -83,10 +103,6 @@ constexpr std::uint32_t detail_of(std::uint32_t source, std::uint32_t relaxation
 /// A detail of sheet_gather: the last look of a step, for the energy alone.
 constexpr std::uint32_t last_look = 1;
 
-/// Sums that a pass leaves in parts.
-struct SumSlots {
-    std::uint32_t first = 0, count = 0;
-};
 SumSlots sum_slots_of(Pass pass);
 
 constexpr std::uint32_t sum_slot_count = sum_slots;
@@ -119,18 +135,33 @@ struct Program {
     std::vector<Kept> keeps = {};    ///< before the first call
 };
 
-/// Passes of soft bodies alone.
-constexpr bool is_body_pass(Pass pass) { return pass >= Pass::load_force && pass <= Pass::volume_total; }
-/// Passes of the constraint solver: they work on its arena and share its kernels.
-constexpr bool is_solver_pass(Pass pass) { return pass >= Pass::solve_reset; }
-/// Those of the solver paper, which are over nodes and springs and not over packs of them.
-constexpr bool is_paper_pass(Pass pass) { return pass >= Pass::paper_begin && pass <= Pass::paper_end; }
+/// The same of a pass, for what wide kernels ask.
+struct PassKind {
+    PassFamily family;
+    PassUnit unit;
+    HostLoop loop;
+};
+inline constexpr PassKind pass_kinds[] = {
+#define PASS(name, family, unit, reads, writes, sums, loop) \
+    {PassFamily::family, PassUnit::unit, HostLoop::loop},
+#include "solve/passes.def"
+};
+constexpr PassFamily family_of(Pass pass) { return pass_kinds[static_cast<std::uint32_t>(pass)].family; }
+constexpr PassUnit unit_of(Pass pass) { return pass_kinds[static_cast<std::uint32_t>(pass)].unit; }
+constexpr HostLoop host_loop_of(Pass pass) { return pass_kinds[static_cast<std::uint32_t>(pass)].loop; }
 
-/// Those that go by the neighbours on a mesh.
-constexpr bool is_mesh_pass(Pass pass) { return pass >= Pass::mesh_springs && pass <= Pass::mesh_prolong; }
+constexpr bool is_body_pass(Pass pass) { return family_of(pass) == PassFamily::body; }
 
-/// Those that ACAD's solve makes over rows (groups of a mesh) that have a marked spring, and no others.
-bool is_of_live_rows(Pass pass);
+/// Passes of a solver: they work on its arena and share its kernels.
+constexpr bool is_solver_pass(Pass pass)
+{
+    return family_of(pass) != PassFamily::cloth && !is_body_pass(pass);
+}
+/// Those of one invocation.
+constexpr bool is_single_pass(Pass pass)
+{
+    return unit_of(pass) == PassUnit::single || unit_of(pass) == PassUnit::bottom;
+}
 
 /// Values of one block of a reduction.
 constexpr std::uint32_t block_size = 256;

@@ -8,58 +8,11 @@
 namespace pliant::tool::reproduce {
 namespace {
 
-const char* name_of_size(PassSize size)
-{
-    switch (size) {
-        case PassSize::node: return "node";
-        case PassSize::spring: return "spring";
-        case PassSize::block: return "block of 256";
-        case PassSize::level: return "node";
-        case PassSize::cell: return "cell";
-        case PassSize::single: return "once";
-        case PassSize::row: return "row (spring)";
-        case PassSize::scan: return "256 rows";
-        case PassSize::edge: return "edge";
-        case PassSize::finer: return "finer node";
-        case PassSize::live: return "row, or 64 nodes and edges";
-        case PassSize::fan: return "256 fans";
-        case PassSize::body: return "body";
-    }
-    return "";
-}
-
-const char* name_of_resource(Resource resource)
-{
-    switch (resource) {
-        case Resource::position: return "position";
-        case Resource::velocity: return "velocity";
-        case Resource::next_position: return "next_position";
-        case Resource::next_velocity: return "next_velocity";
-        case Resource::external_force: return "external_force";
-        case Resource::spring_force: return "spring_force";
-        case Resource::colliders: return "colliders";
-        case Resource::measures: return "measures";
-        case Resource::normal: return "normal";
-        case Resource::strain: return "strain";
-        case Resource::slopes: return "slopes";
-        case Resource::multiplier: return "multiplier";
-        case Resource::gradient: return "gradient";
-        case Resource::direction: return "direction";
-        case Resource::blocked: return "blocked";
-        case Resource::rate_sums: return "rate_sums";
-        case Resource::cubic_sums: return "cubic_sums";
-        case Resource::bodies: return "bodies";
-        case Resource::volumes: return "volumes";
-        case Resource::solver: return "solver";
-    }
-    return "";
-}
-
 std::string names_of(std::span<const Resource> resources)
 {
     std::string text;
     for (const Resource resource : resources)
-        text += (text.empty() ? "" : ", ") + std::string(name_of_resource(resource));
+        text += (text.empty() ? "" : ", ") + std::string(name_of(resource));
     return text;
 }
 
@@ -75,7 +28,7 @@ Json column(const char* title, const char* source)
     return {{"name", title}, {"title", title}, {"unit", ""}, {"source", source}};
 }
 
-bool is_papers(const PassDescription& pass) { return std::string(pass.name).rfind("paper_", 0) == 0; }
+bool is_papers(const PassDescription& pass) { return pass.family == PassFamily::paper; }
 
 /// Theirs and ours, kernel by kernel; then those of ours that have no counterpart.
 Json kernels()
@@ -93,7 +46,7 @@ Json kernels()
     std::map<std::string, int> told;
     const auto add = [&](const Json& theirs, const std::string& name) {
         const PassDescription& pass = pass_named(name);
-        table["rows"].push_back({theirs[0], theirs[1], theirs[2], pass.name, name_of_size(pass.size),
+        table["rows"].push_back({theirs[0], theirs[1], theirs[2], pass.name, description_of(pass.unit),
                                  names_of(pass.reads), names_of(pass.writes)});
         ++told[name];
     };
@@ -125,15 +78,19 @@ Json buffers()
         for (const Resource resource : pass.writes) ++uses[resource].second;
     }
     for (const auto& [resource, counts] : uses) {
-        const bool arena = resource == Resource::solver;
-        const std::string size =
-            arena ? std::to_string(row_planes) + " m + " + std::to_string(paper_planes) + " n + non-zeros"
-            : resource == Resource::colliders  ? "colliders"
-            : resource == Resource::multiplier ? "n"
-                                               : "3n";
-        const char* what = arena ? "the arena: rows, multipliers, conjugate gradients, matrix, scalars" : "";
-        table["rows"].push_back({name_of_resource(resource), "ours", size, "float", what,
-                                 std::to_string(counts.first), std::to_string(counts.second)});
+        const std::string size = resource == Resource::vectors ? std::to_string(row_planes) + " m + " +
+                                                                     std::to_string(paper_planes) + " n"
+                                 : resource == Resource::blocks     ? "non-zeros"
+                                 : resource == Resource::scalars    ? std::to_string(scalar_count)
+                                 : resource == Resource::sums       ? "m / " + std::to_string(sum_columns)
+                                 : resource == Resource::colliders  ? "colliders"
+                                 : resource == Resource::multiplier ? "n"
+                                                                    : "3n";
+        const char* what = resource == Resource::vectors  ? "rows, multipliers, conjugate gradients"
+                           : resource == Resource::blocks ? "the matrix"
+                                                          : "";
+        table["rows"].push_back({name_of(resource), "ours", size, "float", what, std::to_string(counts.first),
+                                 std::to_string(counts.second)});
     }
     return table;
 }

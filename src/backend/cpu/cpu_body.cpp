@@ -83,12 +83,12 @@ CpuBody::CpuBody(const PlainCloth<float>& cloth)
 
 bool CpuBody::has_kernel(Pass pass)
 {
-    return is_body_pass(pass) && pass != Pass::load_force && pass != Pass::volume_total;
+    return is_body_pass(pass) && unit_of(pass) != PassUnit::load && unit_of(pass) != PassUnit::body;
 }
 
 std::size_t CpuBody::size_of(const Call& call) const
 {
-    const bool fans = call.pass == Pass::volume_cubic || call.pass == Pass::volume_measure;
+    const bool fans = unit_of(call.pass) == PassUnit::fan_block;
     const SliceArrays& slices = fans ? fans_ : ring_;
     return (slices.start.size() - 1) / (block_size / Slices::lanes);
 }
@@ -115,7 +115,7 @@ void CpuBody::run(const Call& call, PlainCloth<float>& cloth, StateRecords& reco
                   std::size_t begin, std::size_t end)
 {
     const std::uint32_t now = call.parity, next = 1 - now;
-    const bool fans = call.pass == Pass::volume_cubic || call.pass == Pass::volume_measure;
+    const bool fans = unit_of(call.pass) == PassUnit::fan_block;
     PlainBody<float>& plain = cloth.body;
     const BodyModel& model = *plain.model;
     BodyArguments a{};

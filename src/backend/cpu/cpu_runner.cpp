@@ -67,11 +67,12 @@ struct Work {
         : call(&c), cloth(&target), kernels(&k), constants(&values), colliders(shapes)
     {
         PlainCloth<float>& plain = cloth->plain;
-        const PassSize pass_size = description_of(call->pass).size;
+        const PassFamily family = family_of(call->pass);
+        const PassUnit pass_unit = unit_of(call->pass);
         if (is_solver_pass(call->pass)) {
-            const bool scalar = pass_size == PassSize::single || pass_size == PassSize::live ||
-                                is_paper_pass(call->pass) ||
-                                (is_mesh_pass(call->pass) && !has_lanes(call->pass));
+            const bool scalar = is_single_pass(call->pass) || pass_unit == PassUnit::flag ||
+                                family == PassFamily::paper ||
+                                (family == PassFamily::mesh && !has_lanes(call->pass));
             unit = scalar ? Unit::single : Unit::solver;
             size = cloth->solver.size_of(c);
             weight = cloth->solver.weight_of(c);
@@ -100,7 +101,7 @@ struct Work {
             size = plain.size_of(*call);
             const bool of_mesh = call->pass == Pass::list_measure && !plain.model.is_sheet();
             if (call->pass == Pass::sheet_measure || of_mesh) unit = Unit::measures;
-            if (pass_size == PassSize::block || pass_size == PassSize::fan) weight = block_size;
+            if (pass_unit == PassUnit::block || pass_unit == PassUnit::merged_block) weight = block_size;
         }
     }
 

@@ -87,7 +87,7 @@ KERNEL void make_half_row(HalfRow& to, SplitRow& above, SplitRow& row, const Coa
     }
 }
 
-void coarsens(int begin, int end)
+void sheet_coarsen_rows(Pass, int begin, int end)
 {
     if constexpr (Lanes<T>::count == 1)
         cells<&SolverKernels::sheet_coarsen>(begin, end, level.rows, level.columns);

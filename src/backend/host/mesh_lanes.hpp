@@ -46,22 +46,12 @@ struct MeshLanes {
 /// Passes of meshes that find their neighbours in records, which must be made before.
 constexpr bool asks_for_records(Pass pass)
 {
-    switch (pass) {
-        case Pass::mesh_springs:
-        case Pass::mesh_apply:
-        case Pass::mesh_smooth:
-        case Pass::mesh_residual:
-        case Pass::mesh_restrict:
-        case Pass::mesh_multiply:
-        case Pass::mesh_prolong: return true;
-        default: return false;
-    }
+    return host_loop_of(pass) == HostLoop::records || host_loop_of(pass) == HostLoop::spring_groups;
 }
 /// Passes of meshes that packs run.
 constexpr bool has_lanes(Pass pass)
 {
-    return asks_for_records(pass) || pass == Pass::mesh_fold || pass == Pass::mesh_gather ||
-           pass == Pass::mesh_coarsen_couplings || pass == Pass::mesh_coarsen_nodes;
+    return asks_for_records(pass) || host_loop_of(pass) == HostLoop::lanes;
 }
 
 }  // namespace pliant

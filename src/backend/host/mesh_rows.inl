@@ -171,7 +171,7 @@ KERNEL static SpringState chosen(mask m, SpringState a, SpringState b)
     return {choose(m, a.force, b.force), choose(m, a.along, b.along), choose(m, a.across, b.across),
             choose(m, a.energy, b.energy), choose(m, a.multiplier, b.multiplier)};
 }
-void springs_of_groups(Pass pass, int begin, int end)
+void mesh_springs_groups(Pass pass, int begin, int end)
 {
     const SumSlots slots = sum_slots_of(pass);
     SolverKernels self = *this;
@@ -184,7 +184,7 @@ void springs_of_groups(Pass pass, int begin, int end)
     }
 }
 
-KERNEL void fold_lanes(int e)
+KERNEL void mesh_fold_lanes(int e)
 {
     if (e >= level.loose) return;
     store_blocks(sum_of_blocks(level, lanes().folds, e), lanes_left(e, level.loose),
@@ -196,7 +196,7 @@ KERNEL FourNumbers<T> force_at(const std::int32_t* place) const
 {
     return Record::fours(edge_at(edge_force, 4, 0), place);
 }
-KERNEL void gather_lanes(int o)
+KERNEL void mesh_gather_lanes(int o)
 {
     const int first = mesh_node(o);
     MeshNode node = mesh_node_alone(o);
@@ -231,7 +231,7 @@ KERNEL void store_coupling(int entry, Symmetric a) const
     put3(p + 3 * LaneTable::lanes, LaneTable::lanes, a.yy, a.yz, a.zz);
 }
 
-KERNEL void multiply_lanes(int e)
+KERNEL void mesh_multiply_lanes(int e)
 {
     const std::int32_t *i = lanes().first_end + e, *j = lanes().second_end + e;
     const Number* states = lanes().states;
@@ -266,9 +266,9 @@ KERNEL vec3 lanes_product(int x, int o)
     }
     return y;
 }
-KERNEL void apply_lanes(int o) { leave_applied(o, lanes_product(plane_p, o)); }
-KERNEL void smooth_lanes(int o) { leave_smoothed(o, lanes_product(source_plane(), o)); }
-KERNEL void residual_lanes(int o) { leave_residual(o, lanes_product(source_plane(), o)); }
+KERNEL void mesh_apply_lanes(int o) { leave_applied(o, lanes_product(plane_p, o)); }
+KERNEL void mesh_smooth_lanes(int o) { leave_smoothed(o, lanes_product(source_plane(), o)); }
+KERNEL void mesh_residual_lanes(int o) { leave_residual(o, lanes_product(source_plane(), o)); }
 
 // --- from level to level ---------------------------------------------------------------------------------
 
@@ -280,13 +280,13 @@ KERNEL Symmetric sum_of_blocks(const SolverLevel& of, const LaneTable& table, in
     }
     return a;
 }
-KERNEL void coarsen_couplings_lanes(int first)
+KERNEL void mesh_coarsen_couplings_lanes(int first)
 {
     const std::int32_t* edge = lanes().source_edges + first;
     store_blocks(sum_of_blocks(finer, lanes().sources, first), lanes_left(first, level.edges),
                  [&](int lane) { return edge[lane]; });
 }
-KERNEL void coarsen_nodes_lanes(int o)
+KERNEL void mesh_coarsen_nodes_lanes(int o)
 {
     const int first = mesh_node(o);
     const LaneTable &children = lanes().children, &neighbours = lanes().neighbours;
@@ -307,7 +307,7 @@ KERNEL void coarsen_nodes_lanes(int o)
     store6(plane_factor, o, factored(diagonal, real(0.0f)));
 }
 
-KERNEL void restrict_lanes(int o)
+KERNEL void mesh_restrict_lanes(int o)
 {
     const LaneTable& children = lanes().children;
     const Number* vectors = lanes_of(level_number_ - 1).vectors;
@@ -318,7 +318,7 @@ KERNEL void restrict_lanes(int o)
     }
     leave_restricted(o, r);
 }
-KERNEL void prolong_lanes(int f)
+KERNEL void mesh_prolong_lanes(int f)
 {
     const LaneTable& parents = lanes().parents;
     Number* p = finer_base_ + (finer_plane() * finer_size_ + f);
@@ -328,25 +328,4 @@ KERNEL void prolong_lanes(int f)
                         Lanes<T>::load(parents.weight + entry));
     }
     put3(p, finer_size_, z.x, z.y, z.z);
-}
-
-/// As run_mesh, of the passes that has_lanes names.
-void run_mesh_lanes(Pass pass, int begin, int end)
-{
-    using K = SolverKernels;
-    switch (pass) {
-        case Pass::mesh_springs: return springs_of_groups(pass, begin, end);
-        case Pass::mesh_fold: return rows<&K::fold_lanes>(pass, begin, end, level.edges);
-        case Pass::mesh_gather: return nodes<&K::gather_lanes>(pass, begin, end);
-        case Pass::mesh_coarsen_couplings:
-            return rows<&K::coarsen_couplings_lanes>(pass, begin, end, level.edges);
-        case Pass::mesh_coarsen_nodes: return nodes<&K::coarsen_nodes_lanes>(pass, begin, end);
-        case Pass::mesh_apply: return nodes<&K::apply_lanes>(pass, begin, end);
-        case Pass::mesh_smooth: return nodes<&K::smooth_lanes>(pass, begin, end);
-        case Pass::mesh_residual: return nodes<&K::residual_lanes>(pass, begin, end);
-        case Pass::mesh_restrict: return nodes<&K::restrict_lanes>(pass, begin, end);
-        case Pass::mesh_multiply: return rows<&K::multiply_lanes>(pass, begin, end, level.edges);
-        case Pass::mesh_prolong: return finer_nodes<&K::prolong_lanes>(begin, end);
-        default: return;
-    }
 }

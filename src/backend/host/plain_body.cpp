@@ -102,12 +102,11 @@ PlainBody<T>::PlainBody(const ClothModel& cloth, const NodeLayout& layout)
 template <class T>
 std::size_t PlainBody<T>::size_of(const Call& call) const
 {
-    switch (call.pass) {
-        case Pass::load_force: return model->loads.size();
-        case Pass::ring_step: return node_count;
-        case Pass::volume_cubic:
-        case Pass::volume_measure: return model->fan_blocks.size();
-        case Pass::volume_total: return model->parts.size();
+    switch (unit_of(call.pass)) {
+        case PassUnit::load: return model->loads.size();
+        case PassUnit::node: return node_count;
+        case PassUnit::fan_block: return model->fan_blocks.size();
+        case PassUnit::body: return model->parts.size();
         default: return model->node_blocks.size();
     }
 }

@@ -92,15 +92,15 @@ void PlainCloth<T>::take_mass(std::size_t node)
 template <class T>
 std::size_t PlainCloth<T>::size_of(const Call& call) const
 {
-    if (call.pass == Pass::attach) return model.attached.size();
-    if (call.pass == Pass::grab) return 1;
     if (is_body_pass(call.pass)) return body.size_of(call);
-    switch (description_of(call.pass).size) {
-        case PassSize::block: return tree.levels[call.pass == Pass::measure_merge ? call.index : 0].count;
-        case PassSize::spring: return model.springs.size();
-        default: break;
+    switch (unit_of(call.pass)) {
+        case PassUnit::single: return 1;
+        case PassUnit::attached_node: return model.attached.size();
+        case PassUnit::spring: return model.springs.size();
+        case PassUnit::block: return tree.levels.front().count;
+        case PassUnit::merged_block: return tree.levels[call.index].count;
+        default: return model.node_count();
     }
-    return model.node_count();
 }
 
 template <class T>
@@ -535,7 +535,12 @@ void PlainCloth<T>::read(Resource resource, std::uint32_t parity, std::vector<fl
             return;
         case Resource::colliders:
         case Resource::slopes:
-        case Resource::solver: return;  // nothing that is read
+        case Resource::motion:
+        case Resource::vectors:
+        case Resource::blocks:
+        case Resource::flags:
+        case Resource::scalars:
+        case Resource::sums: return;  // see SolverState
         default: return body.read(resource, layout, values);
     }
 }

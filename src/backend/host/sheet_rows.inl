@@ -71,7 +71,21 @@ void products(Pass pass, int x, int begin, int end)
     }
 }
 
-/// The springs of a row, as sheet_gather has them: force, block; and what is counted where they begin.
+void linear_apply_rows(Pass pass, int begin, int end)
+{
+    products<&SolverKernels::linear_apply, &SolverKernels::leave_applied>(pass, plane_p, begin, end);
+}
+void level_smooth_rows(Pass pass, int begin, int end)
+{
+    products<&SolverKernels::level_smooth, &SolverKernels::leave_smoothed>(pass, source_plane(), begin, end);
+}
+void level_residual_rows(Pass pass, int begin, int end)
+{
+    products<&SolverKernels::level_residual, &SolverKernels::leave_residual>(pass, source_plane(), begin,
+                                                                             end);
+}
+
+/// The springs of a row, as sheet_forces has them: force, block; and what is counted where they begin.
 struct SpringRows {
     static constexpr int pitch = RowSpan::pitch, numbers = 9, kinds = 6, rows = 3;
     Number shares[rows * kinds * numbers * pitch];
@@ -100,7 +114,7 @@ KERNEL void make_springs(SpringRows& to, int row, const RowSpan& span)
         Lanes<T>::store(taut, Lanes<T>::load(taut) + counted_taut(share));
     }
 }
-/// In the order in which sheet_gather adds up what it counts.
+/// In the order in which sheet_forces adds up what it counts.
 KERNEL void make_springs(SpringRows& to, int row, const RowSpan& span)
 {
     for (int k = 0; k < SpringRows::pitch; ++k) to.energy[k] = to.taut[k] = Number(0);
@@ -112,10 +126,11 @@ KERNEL void make_springs(SpringRows& to, int row, const RowSpan& span)
     make_springs<3>(to, row, span);
 }
 
-/// sheet_gather with each spring computed once.
-void gathers(Pass pass, int begin, int end)
+/// sheet_gather, with each spring computed once.
+void sheet_gather_rows(Pass pass, int begin, int end)
 {
-    if (Lanes<T>::count == 1) return nodes<&SolverKernels::sheet_gather>(pass, begin, end);
+    if (is_last_look()) return nodes<&SolverKernels::sheet_energy>(pass, begin, end);
+    if (Lanes<T>::count == 1) return nodes<&SolverKernels::sheet_forces>(pass, begin, end);
     SolverKernels self = *this;
     const SumSlots slots = sum_slots_of(pass);
     SpringRows springs;
@@ -170,7 +185,7 @@ KERNEL void gather_row(SpringRows& springs, SumSlots slots, int row, const RowSp
 
 /// sheet_limits where stretch alone counts and nothing is remembered, as in nearly every step of ACAD: a
 /// group of columns in which no spring is beyond leaves empty sums, and is left as soon as that is known.
-void limits(Pass pass, int begin, int end)
+void sheet_limits_rows(Pass pass, int begin, int end)
 {
     const bool plain = sheet_has(0) && sheet_has(1) && !acad_has_memory() && !acad_has_compression();
     if (Lanes<T>::count == 1 || !plain) return nodes<&SolverKernels::sheet_limits>(pass, begin, end);

@@ -52,11 +52,13 @@ struct SolverConstants {
     Number relaxations[most_relaxations]{};
 };
 
-/// Where the flags of a pass's rows begin that take part in a solve of ACAD: see is_of_live_rows.
+/// Where the flags of a pass's rows begin that take part in a solve of ACAD.
 inline std::int32_t live_flags(Pass pass, const SolverLevel& level, const SolverLevel& finer)
 {
-    const PassSize size = description_of(pass).size;
-    return size == PassSize::edge ? level.live_edges : size == PassSize::finer ? finer.live : level.live;
+    const PassUnit unit = unit_of(pass);
+    return unit == PassUnit::live_edge         ? level.live_edges
+           : unit == PassUnit::live_finer_node ? finer.live
+                                               : level.live;
 }
 
 template <class Number>

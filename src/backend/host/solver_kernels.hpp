@@ -6,6 +6,7 @@
 
 #include "backend/host/inlining.hpp"
 #include "backend/host/lanes.hpp"
+#include "backend/host/mesh_lanes.hpp"
 #include "backend/host/solver_context.hpp"
 #include "body/hierarchy.hpp"
 #include "kernels/planes.hpp"
@@ -383,7 +384,7 @@ struct SolverKernels {
     /// (kernels/acad.kernel.glsl).
     void run(Pass pass, int begin, int end)
     {
-        if (!is_acad() || !is_of_live_rows(pass)) return run_rows(pass, begin, end);
+        if (!is_acad() || !is_live(unit_of(pass))) return run_rows(pass, begin, end);
         const Number* live = context.arena + live_flags(pass, level, finer);
         int first = -1;
         const auto finish = [&](int last) {
@@ -398,55 +399,47 @@ struct SolverKernels {
                 first = row;
         finish(row);
     }
+    /// The same of rows, or groups, that lie side by side. A loop as the table of passes names it; meshes and
+    /// the solver paper are run one by one, but for what meshes have lanes for.
     void run_rows(Pass pass, int begin, int end)
     {
-        if constexpr (Lanes<T>::count == 1)
-            if (is_paper_pass(pass)) return run_paper(pass, begin, end);
-        if (is_mesh_pass(pass)) {
-            if constexpr (Lanes<T>::count == 1)
-                return run_mesh(pass, begin, end);
-            else
-                return run_mesh_lanes(pass, begin, end);
-        }
+        constexpr bool scalar = Lanes<T>::count == 1;
         using K = SolverKernels;
         switch (pass) {
-            case Pass::step_begin: return nodes<&K::step_begin>(pass, begin, end);
-            case Pass::sheet_gather:
-                if (is_last_look()) return nodes<&K::sheet_energy>(pass, begin, end);
-                return gathers(pass, begin, end);
-            case Pass::sheet_coarsen: return coarsens(begin, end);
-            case Pass::linear_begin: return nodes<&K::linear_begin>(pass, begin, end);
-            case Pass::level_smooth:
-                return products<&K::level_smooth, &K::leave_smoothed>(pass, source_plane(), begin, end);
-            case Pass::level_residual:
-                return products<&K::level_residual, &K::leave_residual>(pass, source_plane(), begin, end);
-            case Pass::sheet_restrict:
-                return cells<&K::sheet_restrict>(begin, end, level.rows, level.columns);
-            case Pass::sheet_prolong:
-                return cells<&K::sheet_prolong>(begin, end, (finer.rows + 1) / 2, (finer.columns + 1) / 2);
-            case Pass::linear_jacobi: return nodes<&K::linear_jacobi>(pass, begin, end);
-            case Pass::linear_plain: return nodes<&K::linear_plain>(pass, begin, end);
-            case Pass::linear_direction: return nodes<&K::linear_direction>(pass, begin, end);
-            case Pass::linear_apply:
-                return products<&K::linear_apply, &K::leave_applied>(pass, plane_p, begin, end);
-            case Pass::linear_update: return nodes<&K::linear_update>(pass, begin, end);
-            case Pass::newton_move: return nodes<&K::newton_move>(pass, begin, end);
-            case Pass::newton_polish: return nodes<&K::newton_polish>(pass, begin, end);
-            case Pass::sheet_multiply: return nodes<&K::sheet_multiply>(pass, begin, end);
-            case Pass::search_move: return nodes<&K::search_move>(pass, begin, end);
-            case Pass::contact_change: return nodes<&K::contact_change>(pass, begin, end);
-            case Pass::contact_keep: return nodes<&K::contact_keep>(pass, begin, end);
-            case Pass::step_end: return nodes<&K::step_end>(pass, begin, end);
-            case Pass::sheet_limits: return limits(pass, begin, end);
-            case Pass::sheet_marks: return nodes<&K::sheet_marks>(pass, begin, end);
-            case Pass::sheet_clear: clear_parts(begin, end); return nodes<&K::sheet_clear>(pass, begin, end);
-            case Pass::sheet_live:
-                for (int row = begin; row < end; ++row) sheet_live(row);
-                return;
-            case Pass::acad_begin: return nodes<&K::acad_begin>(pass, begin, end);
-            case Pass::acad_end: return nodes<&K::acad_end>(pass, begin, end);
-            case Pass::sheet_multipliers: return nodes<&K::sheet_multipliers>(pass, begin, end);
-            default: return;
+#define LOOP_each(name, unit) over_##unit<&K::name>(pass, begin, end)
+#define LOOP_own_rows(name, unit) name##_rows(pass, begin, end)
+#define LOOP_lanes(name, unit) \
+    if constexpr (scalar)      \
+        LOOP_each(name, unit); \
+    else                       \
+        LOOP_each(name##_lanes, unit)
+#define LOOP_records(name, unit) LOOP_lanes(name, unit)
+#define LOOP_spring_groups(name, unit) \
+    if constexpr (scalar)              \
+        LOOP_each(name, unit);         \
+    else                               \
+        name##_groups(pass, begin, end)
+#define LOOP_WHERE(condition, name, unit, loop) \
+    case Pass::name:                            \
+        if constexpr (condition) {              \
+            LOOP_##loop(name, unit);            \
+        }                                       \
+        return;
+#define SOLVER_PASS(name, unit, loop, ...) LOOP_WHERE(true, name, unit, loop)
+#define SHEET_PASS(name, unit, loop, ...) LOOP_WHERE(true, name, unit, loop)
+#define MESH_PASS(name, unit, loop, ...) LOOP_WHERE(scalar || has_lanes(Pass::name), name, unit, loop)
+#define PAPER_PASS(name, unit, loop, ...) LOOP_WHERE(scalar, name, unit, loop)
+#define PASS(name, ...) /* of one invocation, or none of a solver's */ \
+    case Pass::name: {                                                 \
+        return;                                                        \
+    }
+#include "solve/passes.def"
+#undef LOOP_each
+#undef LOOP_own_rows
+#undef LOOP_lanes
+#undef LOOP_records
+#undef LOOP_spring_groups
+#undef LOOP_WHERE
         }
     }
 
@@ -454,28 +447,16 @@ struct SolverKernels {
     void run_single(Pass pass)
     {
         switch (pass) {
-            case Pass::solve_reset: return solve_reset();
-            case Pass::solve_begin: return solve_begin();
-            case Pass::bottom_factor: return bottom_factor();
-            case Pass::mesh_bottom_factor: return mesh_bottom_factor();
-            case Pass::linear_start: return linear_start();
-            case Pass::bottom_solve: return bottom_solve();
-            case Pass::linear_beta: return linear_beta();
-            case Pass::linear_alpha: return linear_alpha();
-            case Pass::linear_check: return linear_check();
-            case Pass::search_begin: return search_begin();
-            case Pass::search_check: return search_check();
-            case Pass::newton_check: return newton_check();
-            case Pass::contact_check: return contact_check();
-            case Pass::contact_resume: return contact_resume();
-            case Pass::acad_check: return acad_check();
-            case Pass::solve_end: return solve_end();
-            case Pass::paper_count: return paper_count();
-            case Pass::paper_start: return paper_start();
-            case Pass::paper_alpha: return paper_alpha();
-            case Pass::paper_check: return paper_check();
-            case Pass::paper_end: return paper_end();
-            default: return;
+#define SINGLE_PASS(name, ...) \
+    case Pass::name: {         \
+        name();                \
+        return;                \
+    }
+#define PASS(name, ...) \
+    case Pass::name: {  \
+        return;         \
+    }
+#include "solve/passes.def"
         }
     }
 

@@ -1,65 +1,77 @@
 // How a part of a pass is run: over rows, nodes or edges, in groups of which each leaves one part of a sum.
 // Part of SolverKernels (solver_kernels.hpp).
 
-/// Of meshes: over groups of nodes or of edges.
-void run_mesh(Pass pass, int begin, int end)
+// A kernel over each unit of a pass (PassUnit).
+template <auto kernel>
+void over_level_node(Pass pass, int begin, int end)
 {
-    using K = SolverKernels;
-    switch (pass) {
-        case Pass::mesh_springs: return rows<&K::mesh_springs>(pass, begin, end, level.edges);
-        case Pass::mesh_fold: return rows<&K::mesh_fold>(pass, begin, end, level.edges);
-        case Pass::mesh_gather: return nodes<&K::mesh_gather>(pass, begin, end);
-        case Pass::mesh_coarsen_couplings:
-            return rows<&K::mesh_coarsen_couplings>(pass, begin, end, level.edges);
-        case Pass::mesh_coarsen_nodes: return nodes<&K::mesh_coarsen_nodes>(pass, begin, end);
-        case Pass::mesh_apply: return nodes<&K::mesh_apply>(pass, begin, end);
-        case Pass::mesh_smooth: return nodes<&K::mesh_smooth>(pass, begin, end);
-        case Pass::mesh_residual: return nodes<&K::mesh_residual>(pass, begin, end);
-        case Pass::mesh_restrict: return nodes<&K::mesh_restrict>(pass, begin, end);
-        case Pass::mesh_limits: return nodes<&K::mesh_limits>(pass, begin, end);
-        case Pass::mesh_marks: return rows<&K::mesh_marks>(pass, begin, end, level.edges);
-        case Pass::mesh_multiply: return rows<&K::mesh_multiply>(pass, begin, end, level.edges);
-        case Pass::mesh_clear: clear_parts(begin, end); return nodes<&K::mesh_clear>(pass, begin, end);
-        case Pass::mesh_clear_edges: return rows<&K::mesh_clear_edges>(pass, begin, end, level.edges);
-        case Pass::mesh_live:
-            for (int group = begin; group < end; ++group) mesh_live(group);
-            return;
-        case Pass::mesh_multipliers: return nodes<&K::mesh_multipliers>(pass, begin, end);
-        case Pass::mesh_prolong: return finer_nodes<&K::mesh_prolong>(begin, end);
-        default: return;
-    }
+    nodes<kernel>(pass, begin, end);
 }
 template <auto kernel>
-void finer_nodes(int begin, int end)
+void over_live_node(Pass pass, int begin, int end)
+{
+    nodes<kernel>(pass, begin, end);
+}
+template <auto kernel>
+void over_numbered_node(Pass, int begin, int end)
+{
+    for_each_row(begin, end, [&](int row, int first, int last) {
+        for (int column = first; column < last; ++column)
+            (this->*kernel)(level_offset(row, column), row * level.columns + column);
+    });
+}
+template <auto kernel>
+void over_edge(Pass pass, int begin, int end)
+{
+    rows<kernel>(pass, begin, end, level.edges);
+}
+template <auto kernel>
+void over_live_edge(Pass pass, int begin, int end)
+{
+    rows<kernel>(pass, begin, end, level.edges);
+}
+template <auto kernel>
+void over_live_cell(Pass, int begin, int end)
+{
+    cells<kernel>(begin, end, level.rows, level.columns);
+}
+template <auto kernel>
+void over_live_finer_cell(Pass, int begin, int end)
+{
+    cells<kernel>(begin, end, (finer.rows + 1) / 2, (finer.columns + 1) / 2);
+}
+template <auto kernel>
+void over_live_finer_node(Pass, int begin, int end)
 {
     SolverKernels self = *this;
     const int last = end * sum_columns < finer.columns ? end * sum_columns : finer.columns;
     for (int column = begin * sum_columns; column < last; column += Lanes<T>::count)
         (self.*kernel)(finer_offset(0, column));
 }
-
-/// Of the solver paper: over groups of nodes or of rows, or over blocks of the prefix sum.
-void run_paper(Pass pass, int begin, int end)
+template <auto kernel>
+void over_flag(Pass, int begin, int end)
 {
-    using K = SolverKernels;
-    const int count = whole(scalar(scalar_rows));
-    switch (pass) {
-        case Pass::paper_begin: return nodes<&K::paper_begin>(pass, begin, end);
-        case Pass::paper_springs: return rows<&K::paper_springs>(pass, begin, end, topology(rows_springs));
-        case Pass::paper_gather: return numbered_nodes<&K::paper_gather>(begin, end);
-        case Pass::paper_scan:
-            for (int block = begin; block < end; ++block) paper_scan(block);
-            return;
-        case Pass::paper_list: return rows<&K::paper_list>(pass, begin, end, topology(rows_constraints));
-        case Pass::paper_system: return rows<&K::paper_system>(pass, begin, end, count);
-        case Pass::paper_apply: return rows<&K::paper_apply>(pass, begin, end, count);
-        case Pass::paper_update: return rows<&K::paper_update>(pass, begin, end, count);
-        case Pass::paper_direction: return rows<&K::paper_direction>(pass, begin, end, count);
-        case Pass::paper_multipliers: return rows<&K::paper_multipliers>(pass, begin, end, count);
-        case Pass::paper_export: return nodes<&K::paper_export>(pass, begin, end);
-        case Pass::paper_step: return numbered_nodes<&K::paper_step>(begin, end);
-        default: return;
-    }
+    for (int k = begin; k < end; ++k) (this->*kernel)(k);
+}
+template <auto kernel>
+void over_row_block(Pass, int begin, int end)
+{
+    for (int k = begin; k < end; ++k) (this->*kernel)(k);
+}
+template <auto kernel>
+void over_spring_row(Pass pass, int begin, int end)
+{
+    rows<kernel>(pass, begin, end, topology(rows_springs));
+}
+template <auto kernel>
+void over_constraint_row(Pass pass, int begin, int end)
+{
+    rows<kernel>(pass, begin, end, topology(rows_constraints));
+}
+template <auto kernel>
+void over_active_row(Pass pass, int begin, int end)
+{
+    rows<kernel>(pass, begin, end, whole(scalar(scalar_rows)));
 }
 
 /// Rows in groups of `sum_columns`; those beyond the `count`-th row have nothing but empty sums.
@@ -73,15 +85,6 @@ void rows(Pass pass, int begin, int end, int count)
         self.summed(slots, group, first, last < count ? last : count, [&](int k) { (self.*kernel)(k); });
     }
 }
-template <auto kernel>
-void numbered_nodes(int begin, int end)
-{
-    for_each_row(begin, end, [&](int row, int first, int last) {
-        for (int column = first; column < last; ++column)
-            (this->*kernel)(level_offset(row, column), row * level.columns + column);
-    });
-}
-
 /// Calls function(row, first, last) for the columns of each row, or for those of groups of the only one.
 template <class Function>
 KERNEL void for_each_row(int begin, int end, const Function& function) const
@@ -120,6 +123,16 @@ KERNEL void nodes_of_group(SumSlots slots, int row, int begin, int end)
 {
     const int offset = level_offset(row, 0);
     summed(slots, part_of(row, begin), begin, end, [&](int column) { (this->*kernel)(offset + column); });
+}
+void sheet_clear_rows(Pass pass, int begin, int end)
+{
+    clear_parts(begin, end);
+    nodes<&SolverKernels::sheet_clear>(pass, begin, end);
+}
+void mesh_clear_rows(Pass pass, int begin, int end)
+{
+    clear_parts(begin, end);
+    nodes<&SolverKernels::mesh_clear>(pass, begin, end);
 }
 /// The parts of sums that passes of ACAD's solve leave: of rows that are not live nobody writes them.
 void clear_parts(int begin, int end) const

@@ -6,6 +6,7 @@
 
 #include "backend/host/solver_kernels.hpp"
 #include "kernels/planes.hpp"
+#include "solve/frame.hpp"
 #include "solve/newton_multigrid.hpp"
 
 namespace pliant {
@@ -185,42 +186,29 @@ void set_first_numbers(const ClothModel& model, const Hierarchy& hierarchy, T* a
         });
 }
 
-namespace {
-
-/// One for each slot that a cloth's solver reads. Those that share a slot have as many parts.
-std::vector<Pass> summing_passes(const ClothModel& model)
-{
-    if (model.solver == Solver::paper) return {Pass::paper_springs, Pass::paper_apply, Pass::paper_update};
-    std::vector<Pass> passes = {Pass::linear_update};
-    if (model.is_sheet())
-        passes.insert(passes.end(), {Pass::sheet_gather, Pass::linear_apply, Pass::level_smooth});
-    else
-        passes.insert(passes.end(),
-                      {Pass::mesh_springs, Pass::mesh_gather, Pass::mesh_apply, Pass::mesh_smooth});
-    if (model.corrects_steps())
-        passes.insert(passes.end(),
-                      {Pass::acad_begin, model.is_sheet() ? Pass::sheet_marks : Pass::mesh_limits});
-    else
-        passes.insert(passes.end(), {Pass::step_begin, Pass::step_end,
-                                     model.is_sheet() ? Pass::sheet_multiply : Pass::mesh_multiply});
-    return passes;
-}
-
-}  // namespace
-
 SumParts::SumParts(const ClothModel& model, const Hierarchy& hierarchy)
 {
     const SolverLevel& cloth = hierarchy.levels.front();
-    for (const Pass pass : summing_passes(model)) {
-        const SumSlots slots = sum_slots_of(pass);
-        const PassSize size = description_of(pass).size;
-        const ConstraintRows& rows = hierarchy.constraints;
-        const std::size_t row_count = pass == Pass::paper_springs ? rows.springs : rows.constraints;
-        const int parts = size == PassSize::edge  ? sum_groups(cloth.edges)
-                          : size == PassSize::row ? sum_groups(static_cast<int>(row_count))
-                                                  : cloth.rows * sum_groups(cloth.columns);
-        for (std::uint32_t k = 0; k < slots.count; ++k) counts[slots.first + k] = parts;
-        stride = std::max(stride, parts);
+    const ConstraintRows& rows = hierarchy.constraints;
+    const auto parts_of = [&](PassUnit unit) {
+        switch (unit) {
+            case PassUnit::edge:
+            case PassUnit::live_edge: return sum_groups(cloth.edges);
+            case PassUnit::spring_row: return sum_groups(static_cast<int>(rows.springs));
+            case PassUnit::active_row: return sum_groups(static_cast<int>(rows.constraints));
+            default: return cloth.rows * sum_groups(cloth.columns);
+        }
+    };
+    // Passes of a step that share a slot are over the same units.
+    std::vector<Call> calls;
+    append_frame({&model, 1}, 1, 0, calls);
+    for (const Call& call : calls) {
+        const SumSlots slots = sum_slots_of(call.pass);
+        const int parts = parts_of(unit_of(call.pass));
+        for (std::uint32_t k = 0; k < slots.count; ++k) {
+            counts[slots.first + k] = parts;
+            stride = std::max(stride, parts);
+        }
     }
 }
 
@@ -256,7 +244,7 @@ template <class T>
 std::size_t SolverState<T>::size_of(const Call& call) const
 {
     const std::size_t all = whole_size_of(call);
-    if (!corrects_steps_ || !is_of_live_rows(call.pass)) return all;
+    if (!corrects_steps_ || !is_live(unit_of(call.pass))) return all;
     const SolverLevel* levels = hierarchy_->levels.data();
     const T* live = arena_.data() +
                     live_flags(call.pass, levels[call.level], levels[call.level > 0 ? call.level - 1 : 0]);
@@ -270,33 +258,32 @@ std::size_t SolverState<T>::whole_size_of(const Call& call) const
     const auto groups = [](auto count) {
         return static_cast<std::size_t>(sum_groups(static_cast<int>(count)));
     };
-    switch (description_of(call.pass).size) {
-        case PassSize::single: return 1;
-        case PassSize::row: return groups(row_count(call));
-        case PassSize::edge: return groups(level.edges);
-        case PassSize::live:
+    switch (unit_of(call.pass)) {
+        case PassUnit::single:
+        case PassUnit::bottom: return 1;
+        case PassUnit::spring_row: return groups(hierarchy_->constraints.springs);
+        case PassUnit::constraint_row:
+        case PassUnit::active_row: return groups(hierarchy_->constraints.constraints);
+        case PassUnit::row_block: return hierarchy_->constraints.scan_blocks(call.detail);
+        case PassUnit::edge:
+        case PassUnit::live_edge: return groups(level.edges);
+        case PassUnit::flag:
             return std::max(static_cast<std::size_t>(level.node_units()), groups(level.edges));
-        case PassSize::finer: return groups(hierarchy_->levels[call.level - 1].columns);
-        case PassSize::scan: return hierarchy_->constraints.scan_blocks(call.detail);
+        case PassUnit::live_finer_node: return groups(hierarchy_->levels[call.level - 1].columns);
         default: return static_cast<std::size_t>(level.node_units());
     }
 }
 
 template <class T>
-std::size_t SolverState<T>::row_count(const Call& call) const
-{
-    return call.pass == Pass::paper_springs ? hierarchy_->constraints.springs
-                                            : hierarchy_->constraints.constraints;
-}
-
-template <class T>
 std::size_t SolverState<T>::weight_of(const Call& call) const
 {
-    const PassSize size = description_of(call.pass).size;
+    const PassUnit unit = unit_of(call.pass);
     const SolverLevel& level = hierarchy_->levels[call.level];
-    if (size == PassSize::scan) return block_size;
-    const bool by_rows = level.rows > 1 && (size == PassSize::level || size == PassSize::cell);
-    return by_rows ? static_cast<std::size_t>(level.columns) : sum_columns;
+    if (unit == PassUnit::row_block) return block_size;
+    const bool over_rows = unit == PassUnit::level_node || unit == PassUnit::live_node ||
+                           unit == PassUnit::numbered_node || unit == PassUnit::live_cell ||
+                           unit == PassUnit::live_finer_cell;
+    return level.rows > 1 && over_rows ? static_cast<std::size_t>(level.columns) : sum_columns;
 }
 
 template <class T>
@@ -335,7 +322,7 @@ void SolverState<T>::run(const Call& call, const SolverContext<T>& context, std:
                          std::size_t end) const
 {
     SolverKernels<T> kernels(context, call);
-    if (description_of(call.pass).size == PassSize::single)
+    if (is_single_pass(call.pass))
         kernels.run_single(call.pass);
     else
         kernels.run(call.pass, static_cast<int>(begin), static_cast<int>(end));

@@ -23,6 +23,7 @@ void set_first_numbers(const ClothModel& model, const Hierarchy& hierarchy, T* a
 
 /// The parts that the sums of a cloth's solver are left in, by slot.
 struct SumParts {
+    SumParts() = default;
     SumParts(const ClothModel& model, const Hierarchy& hierarchy);  ///< of a hierarchy that is not empty
 
     std::array<int, sum_slot_count> counts{};
@@ -70,7 +71,6 @@ public:
 
 private:
     /// Springs that a pass of the solver paper may have to do with.
-    std::size_t row_count(const Call& call) const;
     std::size_t whole_size_of(const Call& call) const;  ///< live or not
 
     const Hierarchy* hierarchy_;

@@ -19,6 +19,7 @@ public:
         std::set<Key> reads, writes;
         for (const Resource r : pass.reads) reads.insert(key(call, r));
         for (const Resource r : pass.writes) writes.insert(key(call, r));
+        if (call.guard != Guard::none) reads.insert(key(call, Resource::scalars));
         bool hazard = false;
         for (const Key& k : reads) hazard |= written_.count(k) > 0;
         for (const Key& k : writes) hazard |= written_.count(k) > 0 || read_.count(k) > 0;

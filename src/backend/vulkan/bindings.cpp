@@ -4,7 +4,7 @@
 
 namespace pliant::vulkan {
 
-std::span<const Binding> bindings_of(Family family)
+std::span<const Binding> bindings_of(PassLayout layout)
 {
     using enum Binding;
     // At most ten storage buffers in a row.
@@ -30,42 +30,41 @@ std::span<const Binding> bindings_of(Family family)
     static constexpr std::array solver_ends{parameters,   position_in,    velocity_in,  position_out,
                                             velocity_out, external_force, colliders,    solver,
                                             solver_arena, solver_scalars, solver_parts, solver_topology};
-    switch (family) {
-        case Family::nodes: return nodes;
-        case Family::springs: return springs_;
-        case Family::list_steps: return list_steps;
-        case Family::triangles: return triangles_;
-        case Family::body_forces: return body_forces;
-        case Family::body_volume: return body_volume;
-        case Family::solver: return solver_;
-        case Family::solver_ends: return solver_ends;
+    switch (layout) {
+        case PassLayout::nodes: return nodes;
+        case PassLayout::springs: return springs_;
+        case PassLayout::list_steps: return list_steps;
+        case PassLayout::triangles: return triangles_;
+        case PassLayout::body_forces: return body_forces;
+        case PassLayout::body_volume: return body_volume;
+        case PassLayout::solver: return solver_;
+        case PassLayout::solver_ends: return solver_ends;
     }
     return {};
 }
 
-Family family_of(Pass pass)
+PassLayout layout_of(Pass pass)
 {
     switch (pass) {
-        case Pass::spring_force:
-        case Pass::list_measure:
-        case Pass::list_strain: return Family::springs;
-        case Pass::list_step:
-        case Pass::stage_step: return Family::list_steps;
-        case Pass::mesh_wind:
-        case Pass::mesh_normal: return Family::triangles;
-        case Pass::load_force:
-        case Pass::ring_step:
-        case Pass::volume_gather: return Family::body_forces;
-        case Pass::step_begin:
-        case Pass::step_end:
-        case Pass::acad_begin:
-        case Pass::acad_end:
-        case Pass::paper_begin:
-        case Pass::paper_gather:
-        case Pass::paper_step: return Family::solver_ends;
-        default: break;
+#define CLOTH_PASS(name, unit, layout, ...) \
+    case Pass::name: {                      \
+        return PassLayout::layout;          \
     }
-    return is_body_pass(pass) ? Family::body_volume : is_solver_pass(pass) ? Family::solver : Family::nodes;
+#define BODY_PASS(name, unit, layout, ...) CLOTH_PASS(name, unit, layout, )
+#define PASS(name, ...) \
+    case Pass::name: {  \
+        break;          \
+    }
+#include "solve/passes.def"
+    }
+    // Of a solver. What the state becomes is bound for both: pinned nodes are found where they are going.
+    for (const Resource resource : description_of(pass).reads)
+        if (resource == Resource::position || resource == Resource::velocity ||
+            resource == Resource::next_velocity || resource == Resource::external_force)
+            return PassLayout::solver_ends;
+    for (const Resource resource : description_of(pass).writes)
+        if (resource == Resource::next_position) return PassLayout::solver_ends;
+    return PassLayout::solver;
 }
 
 }  // namespace pliant::vulkan

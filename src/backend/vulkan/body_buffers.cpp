@@ -84,11 +84,10 @@ BodyBuffers::BodyBuffers(const Device& device, const ClothModel& model)
 std::uint32_t BodyBuffers::groups_of(const Call& call) const
 {
     const auto groups = [](std::size_t n) { return static_cast<std::uint32_t>((n + 63) / 64); };
-    switch (call.pass) {
-        case Pass::load_force: return groups(body_->loads.size());
-        case Pass::volume_cubic:
-        case Pass::volume_measure: return static_cast<std::uint32_t>(body_->fan_blocks.size());
-        case Pass::volume_total: return static_cast<std::uint32_t>(body_->parts.size());
+    switch (unit_of(call.pass)) {
+        case PassUnit::load: return groups(body_->loads.size());
+        case PassUnit::fan_block: return static_cast<std::uint32_t>(body_->fan_blocks.size());
+        case PassUnit::body: return static_cast<std::uint32_t>(body_->parts.size());
         default: return static_cast<std::uint32_t>(body_->node_blocks.size());
     }
 }

@@ -32,26 +32,26 @@ struct Parameters {
 
 }  // namespace
 
-vk::raii::DescriptorSetLayout make_cloth_layout(const Device& device, Family family)
+vk::raii::DescriptorSetLayout make_cloth_layout(const Device& device, PassLayout layout)
 {
     std::vector<vk::DescriptorSetLayoutBinding> bindings;
-    for (const Binding binding : bindings_of(family))
+    for (const Binding binding : bindings_of(layout))
         bindings.emplace_back(static_cast<std::uint32_t>(binding), type_of(binding), 1,
                               vk::ShaderStageFlagBits::eCompute);
     return {device.handle(), vk::DescriptorSetLayoutCreateInfo({}, bindings)};
 }
 
-bool ClothBuffers::takes(Family family) const
+bool ClothBuffers::takes(PassLayout layout) const
 {
-    switch (family) {
-        case Family::nodes: return true;
-        case Family::springs:
-        case Family::list_steps: return !model_->node_centric();
-        case Family::triangles: return !model_->is_sheet();
-        case Family::body_forces:
-        case Family::body_volume: return model_->is_body();
-        case Family::solver:
-        case Family::solver_ends: return !model_->hierarchy.empty();
+    switch (layout) {
+        case PassLayout::nodes: return true;
+        case PassLayout::springs:
+        case PassLayout::list_steps: return !model_->node_centric();
+        case PassLayout::triangles: return !model_->is_sheet();
+        case PassLayout::body_forces:
+        case PassLayout::body_volume: return model_->is_body();
+        case PassLayout::solver:
+        case PassLayout::solver_ends: return !model_->hierarchy.empty();
     }
     return false;
 }
@@ -59,18 +59,18 @@ bool ClothBuffers::takes(Family family) const
 void ClothBuffers::make_sets(const Device& device, std::span<const vk::raii::DescriptorSetLayout> layouts)
 {
     std::uint32_t storage = 0, uniform = 0, count = 0;
-    for (std::uint32_t f = 0; f < family_count; ++f) {
-        const auto family = static_cast<Family>(f);
-        if (!takes(family)) continue;
+    for (std::uint32_t f = 0; f < layout_count; ++f) {
+        const auto layout = static_cast<PassLayout>(f);
+        if (!takes(layout)) continue;
         count += 2;
-        for (const Binding binding : bindings_of(family)) (is_uniform(binding) ? uniform : storage) += 2;
+        for (const Binding binding : bindings_of(layout)) (is_uniform(binding) ? uniform : storage) += 2;
     }
     const vk::DescriptorPoolSize sizes[] = {{vk::DescriptorType::eUniformBuffer, uniform},
                                             {vk::DescriptorType::eStorageBuffer, storage}};
     pool_ = {device.handle(), vk::DescriptorPoolCreateInfo(
                                   vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, count, sizes)};
-    for (std::uint32_t f = 0; f < family_count; ++f) {
-        if (!takes(static_cast<Family>(f))) continue;
+    for (std::uint32_t f = 0; f < layout_count; ++f) {
+        if (!takes(static_cast<PassLayout>(f))) continue;
         const vk::DescriptorSetLayout both[] = {*layouts[f], *layouts[f]};
         for (auto& set :
              vk::raii::DescriptorSets(device.handle(), vk::DescriptorSetAllocateInfo(*pool_, both)))
@@ -256,8 +256,8 @@ ClothBuffers::ClothBuffers(const Device& device, const ClothModel& model,
 void ClothBuffers::bind(const Device& device, std::uint32_t parity, Binding binding, const Buffer& buffer)
 {
     const auto descriptor = buffer.descriptor();
-    for (std::uint32_t f = 0; f < family_count; ++f) {
-        const auto bindings = bindings_of(static_cast<Family>(f));
+    for (std::uint32_t f = 0; f < layout_count; ++f) {
+        const auto bindings = bindings_of(static_cast<PassLayout>(f));
         if (sets_[f].empty() || std::find(bindings.begin(), bindings.end(), binding) == bindings.end())
             continue;
         device.handle().updateDescriptorSets(
@@ -343,7 +343,12 @@ const Buffer& ClothBuffers::buffer(Resource resource, std::uint32_t parity) cons
         case Resource::bodies:
         case Resource::volumes: return body_.sums();
         case Resource::colliders:
-        case Resource::solver: break;
+        case Resource::motion:
+        case Resource::vectors:
+        case Resource::blocks:
+        case Resource::flags:
+        case Resource::scalars:
+        case Resource::sums: break;  // see SolverBuffers
     }
     throw Error(ErrorKind::bad_usage, "this resource is not a cloth's");
 }

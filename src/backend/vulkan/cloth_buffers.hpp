@@ -16,20 +16,20 @@
 
 namespace pliant::vulkan {
 
-vk::raii::DescriptorSetLayout make_cloth_layout(const Device& device, Family family);
+vk::raii::DescriptorSetLayout make_cloth_layout(const Device& device, PassLayout layout);
 
 class ClothBuffers {
 public:
-    /// With the layouts by family.
+    /// With what each PassLayout is on the device.
     ClothBuffers(const Device& device, const ClothModel& model,
                  std::span<const vk::raii::DescriptorSetLayout> layouts);
 
     const ClothModel& model() const { return *model_; }
     const MeasureTree& tree() const { return tree_; }
     /// Of families whose passes this kind of cloth takes; others have no sets.
-    vk::DescriptorSet set(Family family, std::uint32_t parity) const
+    vk::DescriptorSet set(PassLayout layout, std::uint32_t parity) const
     {
-        return *sets_[static_cast<std::size_t>(family)][parity];
+        return *sets_[static_cast<std::size_t>(layout)][parity];
     }
     void bind_colliders(const Device& device, const Buffer& colliders);
     /// Normals and strains are kept from the first time on that somebody looks at them. True when that is
@@ -64,7 +64,7 @@ public:
     const BodyBuffers& body() const { return body_; }
 
 private:
-    bool takes(Family family) const;
+    bool takes(PassLayout layout) const;
     void make_sets(const Device& device, std::span<const vk::raii::DescriptorSetLayout> layouts);
     /// In all sets of this parity that have the binding.
     void bind(const Device& device, std::uint32_t parity, Binding binding, const Buffer& buffer);
@@ -85,7 +85,7 @@ private:
     SolverBuffers solver_;
     BodyBuffers body_;
     vk::raii::DescriptorPool pool_{nullptr};
-    std::array<std::vector<vk::raii::DescriptorSet>, family_count> sets_;  ///< of either parity
+    std::array<std::vector<vk::raii::DescriptorSet>, layout_count> sets_;  ///< of either parity
 };
 
 }  // namespace pliant::vulkan

@@ -7,9 +7,9 @@
 
 namespace pliant::vulkan {
 
-LayoutNeeds needs_of(Family family)
+LayoutNeeds needs_of(PassLayout layout)
 {
-    const auto bindings = bindings_of(family);
+    const auto bindings = bindings_of(layout);
     const auto uniforms =
         static_cast<std::uint32_t>(std::count_if(bindings.begin(), bindings.end(), is_uniform));
     return {static_cast<std::uint32_t>(bindings.size()) - uniforms, uniforms};
@@ -54,7 +54,7 @@ std::string passes_beyond_limits(const vk::PhysicalDeviceLimits& device)
         return of_passes;
     }();
     for (std::uint32_t p = 0; p < needs.size(); ++p) {
-        const std::string beyond = beyond_limits(device, needs[p], needs_of(family_of(static_cast<Pass>(p))));
+        const std::string beyond = beyond_limits(device, needs[p], needs_of(layout_of(static_cast<Pass>(p))));
         if (!beyond.empty()) return std::string("the pass ") + all_passes()[p].name + ": " + beyond;
     }
     return {};

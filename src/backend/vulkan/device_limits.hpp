@@ -16,7 +16,7 @@ namespace pliant::vulkan {
 struct LayoutNeeds {
     std::uint32_t storage_buffers = 0, uniform_buffers = 0;
 };
-LayoutNeeds needs_of(Family family);
+LayoutNeeds needs_of(PassLayout layout);
 
 /// The first limit of `device` that a pipeline is beyond: the rest of a sentence after "it cannot run NAME:
 /// ". Empty when there is none.

@@ -12,8 +12,8 @@ namespace pliant::vulkan {
 PassPipelines::PassPipelines(const Device& device, bool fast_math) : fast_math_(fast_math)
 {
     const vk::PushConstantRange push(vk::ShaderStageFlagBits::eCompute, 0, sizeof(Push));
-    for (std::uint32_t f = 0; f < family_count; ++f) {
-        sets_.push_back(make_cloth_layout(device, static_cast<Family>(f)));
+    for (std::uint32_t f = 0; f < layout_count; ++f) {
+        sets_.push_back(make_cloth_layout(device, static_cast<PassLayout>(f)));
         const vk::DescriptorSetLayout set = *sets_.back();
         layouts_.emplace_back(device.handle(), vk::PipelineLayoutCreateInfo({}, set, push));
     }
@@ -82,9 +82,9 @@ vk::raii::Pipeline PassPipelines::made(const Device& device, const Dispatch& dis
     std::vector<std::uint32_t> decorated;
     if (code.empty()) code = decorated = with_exact_arithmetic(exact);
 
-    const Family family = family_of(pass);
+    const PassLayout layout = layout_of(pass);
     const std::string beyond =
-        beyond_limits(device.physical().getProperties().limits, needs_of(code, constants), needs_of(family));
+        beyond_limits(device.physical().getProperties().limits, needs_of(code, constants), needs_of(layout));
     if (!beyond.empty())
         throw Error(ErrorKind::device_failure,
                     "the Vulkan device " + device.info().name + " cannot run the pass " +
@@ -99,7 +99,7 @@ vk::raii::Pipeline PassPipelines::made(const Device& device, const Dispatch& dis
     const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main",
                                                   &specialised);
     return {device.handle(), device.pipelines().cache(),
-            vk::ComputePipelineCreateInfo({}, stage, layout(family))};
+            vk::ComputePipelineCreateInfo({}, stage, this->layout(layout))};
 }
 
 }  // namespace pliant::vulkan

@@ -41,9 +41,9 @@ public:
     std::uint32_t sheet_steps(std::uint32_t most) const;
     const SheetTile& tile(std::uint32_t steps) const { return tiles_[steps]; }
 
-    /// By family.
+    /// By layout.
     std::span<const vk::raii::DescriptorSetLayout> sets() const { return sets_; }
-    vk::PipelineLayout layout(Family family) const { return *layouts_[static_cast<std::size_t>(family)]; }
+    vk::PipelineLayout layout(PassLayout layout) const { return *layouts_[static_cast<std::size_t>(layout)]; }
 
 private:
     static std::size_t place_of(const Dispatch& dispatch);

@@ -1,4 +1,5 @@
-// SPIR-V of the compute passes, embedded at build time: NAME.comp of the folder shaders for each PASS(NAME).
+// SPIR-V of the compute passes, embedded at build time: of each row of solve/passes.def, and of
+// sheet_steps.comp.
 #include "backend/vulkan/shader_code.hpp"
 
 #include <algorithm>
@@ -9,379 +10,34 @@
 namespace pliant::vulkan {
 namespace {
 
-constexpr std::uint32_t sheet_wind[] = {
-#include "shaders/sheet_wind.comp.inc"
-};
-constexpr std::uint32_t mesh_wind[] = {
-#include "shaders/mesh_wind.comp.inc"
-};
-constexpr std::uint32_t sheet_step[] = {
-#include "shaders/sheet_step.comp.inc"
-};
-constexpr std::uint32_t sheet_steps[] = {
-#include "shaders/sheet_steps.comp.inc"
-};
-constexpr std::uint32_t attach[] = {
-#include "shaders/attach.comp.inc"
-};
-constexpr std::uint32_t grab[] = {
-#include "shaders/grab.comp.inc"
-};
-constexpr std::uint32_t spring_force[] = {
-#include "shaders/spring_force.comp.inc"
-};
-constexpr std::uint32_t list_step[] = {
-#include "shaders/list_step.comp.inc"
-};
-constexpr std::uint32_t stage_step[] = {
-#include "shaders/stage_step.comp.inc"
-};
-constexpr std::uint32_t sheet_measure[] = {
-#include "shaders/sheet_measure.comp.inc"
-};
-constexpr std::uint32_t list_measure[] = {
-#include "shaders/list_measure.comp.inc"
-};
-constexpr std::uint32_t measure_merge[] = {
-#include "shaders/measure_merge.comp.inc"
-};
-constexpr std::uint32_t sheet_normal[] = {
-#include "shaders/sheet_normal.comp.inc"
-};
-constexpr std::uint32_t mesh_normal[] = {
-#include "shaders/mesh_normal.comp.inc"
-};
-constexpr std::uint32_t sheet_strain[] = {
-#include "shaders/sheet_strain.comp.inc"
-};
-constexpr std::uint32_t list_strain[] = {
-#include "shaders/list_strain.comp.inc"
-};
-constexpr std::uint32_t load_force[] = {
-#include "shaders/load_force.comp.inc"
-};
-constexpr std::uint32_t ring_step[] = {
-#include "shaders/ring_step.comp.inc"
-};
-constexpr std::uint32_t volume_gather[] = {
-#include "shaders/volume_gather.comp.inc"
-};
-constexpr std::uint32_t volume_step[] = {
-#include "shaders/volume_step.comp.inc"
-};
-constexpr std::uint32_t volume_cubic[] = {
-#include "shaders/volume_cubic.comp.inc"
-};
-constexpr std::uint32_t volume_correct[] = {
-#include "shaders/volume_correct.comp.inc"
-};
-constexpr std::uint32_t volume_measure[] = {
-#include "shaders/volume_measure.comp.inc"
-};
-constexpr std::uint32_t volume_total[] = {
-#include "shaders/volume_total.comp.inc"
-};
-constexpr std::uint32_t solve_reset[] = {
-#include "shaders/solve_reset.comp.inc"
-};
-constexpr std::uint32_t step_begin[] = {
-#include "shaders/step_begin.comp.inc"
-};
-constexpr std::uint32_t sheet_gather[] = {
-#include "shaders/sheet_gather.comp.inc"
-};
-constexpr std::uint32_t solve_begin[] = {
-#include "shaders/solve_begin.comp.inc"
-};
-constexpr std::uint32_t sheet_coarsen[] = {
-#include "shaders/sheet_coarsen.comp.inc"
-};
-constexpr std::uint32_t bottom_factor[] = {
-#include "shaders/bottom_factor.comp.inc"
-};
-constexpr std::uint32_t linear_begin[] = {
-#include "shaders/linear_begin.comp.inc"
-};
-constexpr std::uint32_t linear_start[] = {
-#include "shaders/linear_start.comp.inc"
-};
-constexpr std::uint32_t level_smooth[] = {
-#include "shaders/level_smooth.comp.inc"
-};
-constexpr std::uint32_t level_residual[] = {
-#include "shaders/level_residual.comp.inc"
-};
-constexpr std::uint32_t sheet_restrict[] = {
-#include "shaders/sheet_restrict.comp.inc"
-};
-constexpr std::uint32_t bottom_solve[] = {
-#include "shaders/bottom_solve.comp.inc"
-};
-constexpr std::uint32_t sheet_prolong[] = {
-#include "shaders/sheet_prolong.comp.inc"
-};
-constexpr std::uint32_t linear_jacobi[] = {
-#include "shaders/linear_jacobi.comp.inc"
-};
-constexpr std::uint32_t linear_plain[] = {
-#include "shaders/linear_plain.comp.inc"
-};
-constexpr std::uint32_t linear_beta[] = {
-#include "shaders/linear_beta.comp.inc"
-};
-constexpr std::uint32_t linear_direction[] = {
-#include "shaders/linear_direction.comp.inc"
-};
-constexpr std::uint32_t linear_apply[] = {
-#include "shaders/linear_apply.comp.inc"
-};
-constexpr std::uint32_t linear_alpha[] = {
-#include "shaders/linear_alpha.comp.inc"
-};
-constexpr std::uint32_t linear_update[] = {
-#include "shaders/linear_update.comp.inc"
-};
-constexpr std::uint32_t linear_check[] = {
-#include "shaders/linear_check.comp.inc"
-};
-constexpr std::uint32_t search_begin[] = {
-#include "shaders/search_begin.comp.inc"
-};
-constexpr std::uint32_t newton_move[] = {
-#include "shaders/newton_move.comp.inc"
-};
-constexpr std::uint32_t search_move[] = {
-#include "shaders/search_move.comp.inc"
-};
-constexpr std::uint32_t search_check[] = {
-#include "shaders/search_check.comp.inc"
-};
-constexpr std::uint32_t newton_check[] = {
-#include "shaders/newton_check.comp.inc"
-};
-constexpr std::uint32_t contact_change[] = {
-#include "shaders/contact_change.comp.inc"
-};
-constexpr std::uint32_t contact_check[] = {
-#include "shaders/contact_check.comp.inc"
-};
-constexpr std::uint32_t contact_keep[] = {
-#include "shaders/contact_keep.comp.inc"
-};
-constexpr std::uint32_t contact_resume[] = {
-#include "shaders/contact_resume.comp.inc"
-};
-constexpr std::uint32_t newton_polish[] = {
-#include "shaders/newton_polish.comp.inc"
-};
-constexpr std::uint32_t sheet_multiply[] = {
-#include "shaders/sheet_multiply.comp.inc"
-};
-constexpr std::uint32_t mesh_multiply[] = {
-#include "shaders/mesh_multiply.comp.inc"
-};
-constexpr std::uint32_t step_end[] = {
-#include "shaders/step_end.comp.inc"
-};
-constexpr std::uint32_t solve_end[] = {
-#include "shaders/solve_end.comp.inc"
-};
-constexpr std::uint32_t mesh_springs[] = {
-#include "shaders/mesh_springs.comp.inc"
-};
-constexpr std::uint32_t mesh_fold[] = {
-#include "shaders/mesh_fold.comp.inc"
-};
-constexpr std::uint32_t mesh_gather[] = {
-#include "shaders/mesh_gather.comp.inc"
-};
-constexpr std::uint32_t mesh_coarsen_couplings[] = {
-#include "shaders/mesh_coarsen_couplings.comp.inc"
-};
-constexpr std::uint32_t mesh_coarsen_nodes[] = {
-#include "shaders/mesh_coarsen_nodes.comp.inc"
-};
-constexpr std::uint32_t mesh_bottom_factor[] = {
-#include "shaders/mesh_bottom_factor.comp.inc"
-};
-constexpr std::uint32_t mesh_apply[] = {
-#include "shaders/mesh_apply.comp.inc"
-};
-constexpr std::uint32_t mesh_smooth[] = {
-#include "shaders/mesh_smooth.comp.inc"
-};
-constexpr std::uint32_t mesh_residual[] = {
-#include "shaders/mesh_residual.comp.inc"
-};
-constexpr std::uint32_t mesh_restrict[] = {
-#include "shaders/mesh_restrict.comp.inc"
-};
-constexpr std::uint32_t mesh_prolong[] = {
-#include "shaders/mesh_prolong.comp.inc"
-};
-constexpr std::uint32_t paper_begin[] = {
-#include "shaders/paper_begin.comp.inc"
-};
-constexpr std::uint32_t paper_springs[] = {
-#include "shaders/paper_springs.comp.inc"
-};
-constexpr std::uint32_t paper_gather[] = {
-#include "shaders/paper_gather.comp.inc"
-};
-constexpr std::uint32_t paper_count[] = {
-#include "shaders/paper_count.comp.inc"
-};
-constexpr std::uint32_t paper_scan[] = {
-#include "shaders/paper_scan.comp.inc"
-};
-constexpr std::uint32_t paper_list[] = {
-#include "shaders/paper_list.comp.inc"
-};
-constexpr std::uint32_t paper_system[] = {
-#include "shaders/paper_system.comp.inc"
-};
-constexpr std::uint32_t paper_start[] = {
-#include "shaders/paper_start.comp.inc"
-};
-constexpr std::uint32_t paper_apply[] = {
-#include "shaders/paper_apply.comp.inc"
-};
-constexpr std::uint32_t paper_alpha[] = {
-#include "shaders/paper_alpha.comp.inc"
-};
-constexpr std::uint32_t paper_update[] = {
-#include "shaders/paper_update.comp.inc"
-};
-constexpr std::uint32_t paper_check[] = {
-#include "shaders/paper_check.comp.inc"
-};
-constexpr std::uint32_t paper_direction[] = {
-#include "shaders/paper_direction.comp.inc"
-};
-constexpr std::uint32_t paper_multipliers[] = {
-#include "shaders/paper_multipliers.comp.inc"
-};
-constexpr std::uint32_t paper_step[] = {
-#include "shaders/paper_step.comp.inc"
-};
-constexpr std::uint32_t paper_end[] = {
-#include "shaders/paper_end.comp.inc"
-};
+// NAME[] and fast::NAME[], written by cmake/PliantShaders.cmake.
+#include "shaders/modules.inc"
 
-constexpr std::uint32_t mesh_limits[] = {
-#include "shaders/mesh_limits.comp.inc"
-};
-
-constexpr std::uint32_t mesh_marks[] = {
-#include "shaders/mesh_marks.comp.inc"
-};
-constexpr std::uint32_t mesh_clear[] = {
-#include "shaders/mesh_clear.comp.inc"
-};
-constexpr std::uint32_t mesh_clear_edges[] = {
-#include "shaders/mesh_clear_edges.comp.inc"
-};
-constexpr std::uint32_t mesh_live[] = {
-#include "shaders/mesh_live.comp.inc"
-};
-
-constexpr std::uint32_t mesh_multipliers[] = {
-#include "shaders/mesh_multipliers.comp.inc"
-};
-
-constexpr std::uint32_t sheet_limits[] = {
-#include "shaders/sheet_limits.comp.inc"
-};
-
-constexpr std::uint32_t acad_check[] = {
-#include "shaders/acad_check.comp.inc"
-};
-
-constexpr std::uint32_t sheet_marks[] = {
-#include "shaders/sheet_marks.comp.inc"
-};
-constexpr std::uint32_t sheet_clear[] = {
-#include "shaders/sheet_clear.comp.inc"
-};
-constexpr std::uint32_t sheet_live[] = {
-#include "shaders/sheet_live.comp.inc"
-};
-
-constexpr std::uint32_t acad_begin[] = {
-#include "shaders/acad_begin.comp.inc"
-};
-
-constexpr std::uint32_t acad_end[] = {
-#include "shaders/acad_end.comp.inc"
-};
-
-constexpr std::uint32_t sheet_multipliers[] = {
-#include "shaders/sheet_multipliers.comp.inc"
-};
-
-constexpr std::uint32_t paper_export[] = {
-#include "shaders/paper_export.comp.inc"
-};
-
-// The same for SimulationOptions::fast_math: those of PLIANT_FAST_SHADERS (cmake/PliantShaders.cmake).
-namespace fast {
-constexpr std::uint32_t sheet_steps[] = {
-#include "shaders/fast/sheet_steps.comp.inc"
-};
-constexpr std::uint32_t sheet_step[] = {
-#include "shaders/fast/sheet_step.comp.inc"
-};
-constexpr std::uint32_t spring_force[] = {
-#include "shaders/fast/spring_force.comp.inc"
-};
-constexpr std::uint32_t list_step[] = {
-#include "shaders/fast/list_step.comp.inc"
-};
-constexpr std::uint32_t stage_step[] = {
-#include "shaders/fast/stage_step.comp.inc"
-};
-constexpr std::uint32_t ring_step[] = {
-#include "shaders/fast/ring_step.comp.inc"
-};
-constexpr std::uint32_t volume_gather[] = {
-#include "shaders/fast/volume_gather.comp.inc"
-};
-constexpr std::uint32_t volume_step[] = {
-#include "shaders/fast/volume_step.comp.inc"
-};
-constexpr std::uint32_t volume_cubic[] = {
-#include "shaders/fast/volume_cubic.comp.inc"
-};
-constexpr std::uint32_t volume_correct[] = {
-#include "shaders/fast/volume_correct.comp.inc"
-};
-}  // namespace fast
-
-constexpr std::span<const std::uint32_t> codes[] = {
+constexpr std::span<const std::uint32_t> modules[] = {
 #define PASS(name, ...) name,
 #include "solve/passes.def"
-#undef PASS
+};
+
+constexpr std::span<const std::uint32_t> fast_modules[] = {
+#define MODULE_fast(name) fast::name
+#define MODULE_exact(name) \
+    {                      \
+    }
+#define CLOTH_PASS(name, unit, layout, math, ...) MODULE_##math(name),
+#define BODY_PASS(name, unit, layout, math, ...) MODULE_##math(name),
+#define PASS(name, ...) MODULE_exact(name),
+#include "solve/passes.def"
+#undef MODULE_fast
+#undef MODULE_exact
 };
 
 }  // namespace
 
-std::span<const std::uint32_t> compute_shader(Pass pass) { return codes[static_cast<std::size_t>(pass)]; }
+std::span<const std::uint32_t> compute_shader(Pass pass) { return modules[static_cast<std::size_t>(pass)]; }
 std::span<const std::uint32_t> sheet_steps_shader() { return sheet_steps; }
-
 std::span<const std::uint32_t> fast_compute_shader(Pass pass)
 {
-    switch (pass) {
-        case Pass::sheet_step: return fast::sheet_step;
-        case Pass::spring_force: return fast::spring_force;
-        case Pass::list_step: return fast::list_step;
-        case Pass::stage_step: return fast::stage_step;
-        case Pass::ring_step: return fast::ring_step;
-        case Pass::volume_gather: return fast::volume_gather;
-        case Pass::volume_step: return fast::volume_step;
-        case Pass::volume_cubic: return fast::volume_cubic;
-        case Pass::volume_correct: return fast::volume_correct;
-        default: return {};
-    }
+    return fast_modules[static_cast<std::size_t>(pass)];
 }
 std::span<const std::uint32_t> fast_sheet_steps_shader() { return fast::sheet_steps; }
 

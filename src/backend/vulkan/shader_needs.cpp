@@ -14,8 +14,9 @@ constexpr std::uint32_t entry_point = 15, execution_mode = 16, type_int = 21, ty
                         type_vector = 23, type_array = 28, type_struct = 30, type_pointer = 32, constant = 43,
                         constant_composite = 44, spec_constant = 50, spec_constant_composite = 51,
                         spec_constant_op = 52, function = 54, function_end = 56, function_call = 57,
-                        variable = 59, decorate = 71, member_decorate = 72, composite_extract = 81, add = 128,
-                        subtract = 130, multiply = 132, divide = 134;
+                        variable = 59, load = 61, store = 62, access_chain = 65, decorate = 71,
+                        member_decorate = 72, composite_extract = 81, add = 128, subtract = 130,
+                        multiply = 132, divide = 134;
 }
 namespace spirv {
 constexpr std::uint32_t local_size = 17;  // execution mode
@@ -53,13 +54,19 @@ public:
         needs.group_size = group_size_;
         if (const auto found = composites_.find(group_size_id_); found != composites_.end())
             for (std::size_t k = 0; k < 3; ++k) needs.group_size[k] = numbers_.at(found->second[k]);
-        const std::set<std::uint32_t> used = used_variables();
+        const std::set<std::uint32_t> used = reached(&Function::variables),
+                                      loaded = reached(&Function::loaded),
+                                      stored = reached(&Function::stored);
         for (const auto& [id, variable] : variables_) {
             if (used.count(id) == 0) continue;
             const std::uint32_t type = pointed_.at(variable.pointer);
             const auto place = bindings_.find(id);
             switch (variable.storage) {
-                case spirv::storage_buffer: needs.storage_buffers.push_back(place->second); break;
+                case spirv::storage_buffer:
+                    needs.storage_buffers.push_back(place->second);
+                    if (loaded.count(id) > 0) needs.read_buffers.push_back(place->second);
+                    if (stored.count(id) > 0) needs.written_buffers.push_back(place->second);
+                    break;
                 case spirv::uniform:
                     needs.uniform_buffers.push_back(place->second);
                     needs.uniform_range = std::max(needs.uniform_range, size_of(type).bytes);
@@ -69,8 +76,9 @@ public:
                 default: break;
             }
         }
-        std::sort(needs.storage_buffers.begin(), needs.storage_buffers.end());
-        std::sort(needs.uniform_buffers.begin(), needs.uniform_buffers.end());
+        for (auto* bindings :
+             {&needs.storage_buffers, &needs.uniform_buffers, &needs.read_buffers, &needs.written_buffers})
+            std::sort(bindings->begin(), bindings->end());
         return needs;
     }
 
@@ -82,7 +90,8 @@ private:
         std::uint32_t pointer = 0, storage = 0;
     };
     struct Function {
-        std::set<std::uint32_t> variables, called;
+        std::set<std::uint32_t> variables, called, loaded, stored;
+        std::map<std::uint32_t, std::uint32_t> places;  ///< by pointer: the variable that it leads into
     };
 
     void declare(std::uint32_t operation, Words words)
@@ -145,7 +154,17 @@ private:
     /// less.
     void read(Function& function, std::uint32_t operation, Words words)
     {
-        if (operation == op::function_call) function.called.insert(words[3]);
+        const auto place_of = [&](std::uint32_t pointer) {
+            const auto place = function.places.find(pointer);
+            return place == function.places.end() ? pointer : place->second;
+        };
+        switch (operation) {
+            case op::function_call: function.called.insert(words[3]); break;
+            case op::access_chain: function.places[words[2]] = place_of(words[3]); break;
+            case op::load: function.loaded.insert(place_of(words[3])); break;
+            case op::store: function.stored.insert(place_of(words[1])); break;
+            default: break;
+        }
         for (const std::uint32_t word : words.subspan(1))
             if (word < is_variable_.size() && is_variable_[word]) function.variables.insert(word);
     }
@@ -195,19 +214,20 @@ private:
         }
     }
 
-    std::set<std::uint32_t> used_variables() const
+    /// Of all functions that are called, together.
+    std::set<std::uint32_t> reached(std::set<std::uint32_t> Function::*of_function) const
     {
-        std::set<std::uint32_t> used, seen;
+        std::set<std::uint32_t> all, seen;
         std::vector<std::uint32_t> left{entry_};
         while (!left.empty()) {
             const std::uint32_t id = left.back();
             left.pop_back();
             if (!seen.insert(id).second) continue;
             const Function& function = functions_.at(id);
-            used.insert(function.variables.begin(), function.variables.end());
+            all.insert((function.*of_function).begin(), (function.*of_function).end());
             left.insert(left.end(), function.called.begin(), function.called.end());
         }
-        return used;
+        return all;
     }
 
     Words constants_;

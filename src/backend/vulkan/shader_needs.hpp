@@ -10,6 +10,7 @@ namespace pliant::vulkan {
 
 struct ShaderNeeds {
     std::vector<std::uint32_t> storage_buffers, uniform_buffers;  ///< bindings that it uses, ascending
+    std::vector<std::uint32_t> read_buffers, written_buffers;     ///< of the storage buffers
     std::array<std::uint32_t, 3> group_size{1, 1, 1};
     std::uint64_t shared_memory = 0;   ///< bytes
     std::uint64_t push_constants = 0;  ///< bytes

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstring>
 
-#include "backend/host/solver_state.hpp"
 #include "backend/vulkan/float4.hpp"
 
 namespace pliant::vulkan {
@@ -91,8 +90,8 @@ SolverBuffers::SolverBuffers(const Device& device, const ClothModel& model) : mo
                                       "copy of the solver's scalars");
     std::memcpy(scalar_copy_.mapped, zeros.data(), sizeof zeros);
 
-    const std::vector<float> no_parts(static_cast<std::size_t>(SumParts(model, hierarchy).stride) *
-                                      sum_slot_count);
+    sum_parts_ = SumParts(model, hierarchy);
+    const std::vector<float> no_parts(static_cast<std::size_t>(sum_parts_.stride) * sum_slot_count);
     parts_ = device_buffer(no_parts.size() * sizeof(float), "parts of sums");
     device.write(parts_, no_parts.data(), no_parts.size() * sizeof(float));
 
@@ -116,19 +115,19 @@ Groups SolverBuffers::groups_of(const Call& call) const
     const SolverLevel& level = levels[call.level];
     const SolverLevel& finer = levels[call.level > 0 ? call.level - 1 : 0];
     const ConstraintRows& rows = model_->hierarchy.constraints;
-    switch (description_of(call.pass).size) {
-        case PassSize::single: return {1, 1};
-        case PassSize::live: return groups_on(1, std::max(level.node_units(), sum_groups(level.edges)));
-        case PassSize::edge: return groups_on(1, level.edges);
-        case PassSize::finer: return groups_on(1, finer.columns);
-        case PassSize::row:
-            return groups_on(1, static_cast<std::int32_t>(
-                                    call.pass == Pass::paper_springs ? rows.springs : rows.constraints));
-        case PassSize::scan: return groups_on(1, static_cast<std::int32_t>(rows.scan_blocks(call.detail)));
-        case PassSize::cell:
-            if (call.pass == Pass::sheet_prolong)
-                return groups_on((finer.rows + 1) / 2, (finer.columns + 1) / 2);
-            break;
+    switch (unit_of(call.pass)) {
+        case PassUnit::single:
+        case PassUnit::bottom: return {1, 1};
+        case PassUnit::flag: return groups_on(1, std::max(level.node_units(), sum_groups(level.edges)));
+        case PassUnit::edge:
+        case PassUnit::live_edge: return groups_on(1, level.edges);
+        case PassUnit::live_finer_node: return groups_on(1, finer.columns);
+        case PassUnit::live_finer_cell: return groups_on((finer.rows + 1) / 2, (finer.columns + 1) / 2);
+        case PassUnit::spring_row: return groups_on(1, static_cast<std::int32_t>(rows.springs));
+        case PassUnit::constraint_row:
+        case PassUnit::active_row: return groups_on(1, static_cast<std::int32_t>(rows.constraints));
+        case PassUnit::row_block:
+            return groups_on(1, static_cast<std::int32_t>(rows.scan_blocks(call.detail)));
         default: break;
     }
     return groups_on(level.rows, level.columns);
@@ -173,9 +172,8 @@ void SolverBuffers::set_constants(double step_length)
     block.is_graded = c.is_graded ? 1 : 0;
     block.contact_is_by_mass = c.contact_is_by_mass ? 1 : 0;
     block.bottom_base = hierarchy.bottom_base;
-    const SumParts sum_parts(*model_, hierarchy);
-    block.part_stride = sum_parts.stride;
-    std::copy(sum_parts.counts.begin(), sum_parts.counts.end(), block.part_counts);
+    block.part_stride = sum_parts_.stride;
+    std::copy(sum_parts_.counts.begin(), sum_parts_.counts.end(), block.part_counts);
     for (std::size_t k = 0; k < hierarchy.level_count(); ++k)
         std::memcpy(block.levels[k], &hierarchy.levels[k], sizeof(SolverLevel));
     std::memcpy(constants_.mapped, &block, sizeof block);

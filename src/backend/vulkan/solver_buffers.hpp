@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "backend/host/solver_state.hpp"
 #include "backend/vulkan/device.hpp"
 #include "body/cloth_model.hpp"
 #include "solve/pass.hpp"
@@ -46,6 +47,7 @@ private:
     Groups groups_on(std::int32_t rows, std::int32_t columns) const;
 
     const ClothModel* model_;
+    SumParts sum_parts_;
     Buffer constants_, arena_, scalars_, scalar_copy_, parts_, topology_, multiplier_;
 };
 

@@ -268,21 +268,17 @@ private:
             const SheetTile& tile = pipelines_->tile(dispatch.steps);
             return {groups(model.sheet->columns, tile.columns), groups(model.sheet->rows, tile.rows)};
         }
-        switch (call.pass) {
-            case Pass::sheet_wind:
-            case Pass::sheet_step:
-            case Pass::sheet_normal:
-            case Pass::sheet_strain:
-                return {groups(model.sheet->columns, sheet_group_x),
-                        groups(model.sheet->rows, sheet_group_y)};
-            case Pass::sheet_measure:
-            case Pass::list_measure: return {cloth.tree().levels.front().count};
-            case Pass::measure_merge: return {cloth.tree().levels[call.index].count};
-            case Pass::grab: return {1};
-            case Pass::attach: return {groups(model.attached.size(), linear_group)};
-            case Pass::spring_force: return {groups(model.springs.size(), linear_group)};
-            default: return {groups(model.node_count(), linear_group)};
+        switch (unit_of(call.pass)) {
+            case PassUnit::single: return {1};
+            case PassUnit::attached_node: return {groups(model.attached.size(), linear_group)};
+            case PassUnit::spring: return {groups(model.springs.size(), linear_group)};
+            case PassUnit::block: return {cloth.tree().levels.front().count};
+            case PassUnit::merged_block: return {cloth.tree().levels[call.index].count};
+            default: break;
         }
+        if (layout_of(call.pass) == PassLayout::nodes)  // of a sheet, then
+            return {groups(model.sheet->columns, sheet_group_x), groups(model.sheet->rows, sheet_group_y)};
+        return {groups(model.node_count(), linear_group)};
     }
 
     /// Those of which all frames are made, so that the first frame need not wait for their pipelines; so many
@@ -448,10 +444,10 @@ private:
         const Groups groups = groups_of(dispatch);
         if (groups.x == 0) return;  // a mesh without springs
         commands.bindPipeline(vk::PipelineBindPoint::eCompute, pipelines_->of(dispatch));
-        const Family family = family_of(call.pass);
-        const vk::PipelineLayout layout = pipelines_->layout(family);
+        const PassLayout layout_name = layout_of(call.pass);
+        const vk::PipelineLayout layout = pipelines_->layout(layout_name);
         commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, layout, 0,
-                                    cloth.set(family, call.parity), {});
+                                    cloth.set(layout_name, call.parity), {});
         commands.pushConstants<Push>(layout, vk::ShaderStageFlagBits::eCompute, 0, push);
         commands.dispatch(static_cast<std::uint32_t>(groups.x), static_cast<std::uint32_t>(groups.y), 1);
     }

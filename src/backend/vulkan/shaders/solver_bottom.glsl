@@ -5,7 +5,7 @@
 
 layout(local_size_x = 1) in;
 
-#define BOTTOM_PASS(kernel)          \
+#define OVER_bottom(kernel)          \
     void main()                      \
     {                                \
         if (is_skipped()) return;    \

@@ -29,59 +29,64 @@ bool is_live_node(SolverLevel of, int row, int column)
     return is_live(of.live + (of.rows > 1 ? row : column / sum_columns));
 }
 
-#define NODE_PASS_WHERE(kernel, condition)                                           \
-    void main()                                                                      \
-    {                                                                                \
-        if (is_skipped()) return;                                                    \
-        find_levels();                                                               \
-        int row = int(gl_WorkGroupID.y), column = int(gl_GlobalInvocationID.x);      \
-        if (column < level.columns && (condition)) kernel(level_offset(row, column)); \
-        leave_sums();                                                                \
+// Passes over units (PassUnit of solve/pass.hpp), of which a shader has one.
+#define OVER_NODES(call, condition)                                             \
+    void main()                                                                 \
+    {                                                                           \
+        if (is_skipped()) return;                                               \
+        find_levels();                                                          \
+        int row = int(gl_WorkGroupID.y), column = int(gl_GlobalInvocationID.x); \
+        if (column < level.columns && (condition)) call;                        \
+        leave_sums();                                                           \
     }
-#define NODE_PASS(kernel) NODE_PASS_WHERE(kernel, true)
-#define LIVE_NODE_PASS(kernel) NODE_PASS_WHERE(kernel, is_live_node(level, row, column))
+#define OVER_level_node(kernel) OVER_NODES(kernel(level_offset(row, column)), true)
+#define OVER_live_node(kernel) OVER_NODES(kernel(level_offset(row, column)), is_live_node(level, row, column))
+#define OVER_numbered_node(kernel) OVER_NODES(kernel(level_offset(row, column), row * level.columns + column), true)
 
-#define NUMBERED_NODE_PASS(kernel)                                                                          \
-    void main()                                                                                             \
-    {                                                                                                       \
-        if (is_skipped()) return;                                                                           \
-        find_levels();                                                                                      \
-        int row = int(gl_WorkGroupID.y), column = int(gl_GlobalInvocationID.x);                             \
-        if (column < level.columns) kernel(level_offset(row, column), row * level.columns + column);        \
+#define OVER_NUMBERS(kernel, count, condition)                  \
+    void main()                                                 \
+    {                                                           \
+        if (is_skipped()) return;                               \
+        find_levels();                                          \
+        int number_of = int(gl_GlobalInvocationID.x);           \
+        if (number_of < (count) && (condition)) kernel(number_of); \
+        leave_sums();                                           \
     }
+#define OVER_edge(kernel) OVER_NUMBERS(kernel, level.edges, true)
+#define OVER_live_edge(kernel) \
+    OVER_NUMBERS(kernel, level.edges, is_live(level.live_edges + number_of / sum_columns))
+#define OVER_spring_row(kernel) OVER_NUMBERS(kernel, topology(rows_springs), true)
+#define OVER_constraint_row(kernel) OVER_NUMBERS(kernel, topology(rows_constraints), true)
+#define OVER_active_row(kernel) OVER_NUMBERS(kernel, whole(scalar(scalar_rows)), true)
+#define OVER_row_block(kernel) OVER_NUMBERS(kernel, groups_of(topology(rows_scan + 2 * scan_level() + 1), scan_block), true)
+#define OVER_flag(kernel) OVER_NUMBERS(kernel, flag_count(), true)
 
-// Over anything that is numbered through.
-#define ROW_PASS_WHERE(kernel, count, condition)                       \
-    void main()                                                        \
-    {                                                                  \
-        if (is_skipped()) return;                                      \
-        find_levels();                                                 \
-        int number_of = int(gl_GlobalInvocationID.x);                  \
-        if (number_of < count && (condition)) kernel(number_of);       \
-        leave_sums();                                                  \
-    }
-#define ROW_PASS(kernel, count) ROW_PASS_WHERE(kernel, count, true)
-#define LIVE_EDGE_PASS(kernel) \
-    ROW_PASS_WHERE(kernel, level.edges, is_live(level.live_edges + number_of / sum_columns))
+int groups_of(int count, int size) { return (count + size - 1) / size; }
+// As SolverLevel::node_units, and groups of edges.
+int flag_count()
+{
+    int node_units = level.rows > 1 ? level.rows : groups_of(level.columns, sum_columns);
+    return max(node_units, groups_of(level.edges, sum_columns));
+}
 
-// Over the nodes of the finer level, on a mesh.
-#define FINER_PASS(kernel)                                               \
-    void main()                                                          \
-    {                                                                    \
-        if (is_skipped()) return;                                        \
-        find_levels();                                                   \
-        int column = int(gl_GlobalInvocationID.x);                       \
+#define OVER_live_finer_node(kernel)                                                                   \
+    void main()                                                                                        \
+    {                                                                                                  \
+        if (is_skipped()) return;                                                                      \
+        find_levels();                                                                                 \
+        int column = int(gl_GlobalInvocationID.x);                                                     \
         if (column < finer.columns && is_live_node(finer, 0, column)) kernel(finer_offset(0, column)); \
     }
 
-// With the nodes of the finer level that lie at and after those of this one.
-#define CELL_PASS(kernel, column_count)                                                          \
-    void main()                                                                                  \
-    {                                                                                            \
-        if (is_skipped()) return;                                                                \
-        find_levels();                                                                           \
-        int row = int(gl_WorkGroupID.y), column = int(gl_GlobalInvocationID.x);                  \
-        if (column < column_count && is_live_node(level, row, column))                           \
-            kernel(level_offset(row, column), finer_offset(2 * row, 2 * column));                \
+#define OVER_CELLS(kernel, column_count)                                                \
+    void main()                                                                         \
+    {                                                                                   \
+        if (is_skipped()) return;                                                       \
+        find_levels();                                                                  \
+        int row = int(gl_WorkGroupID.y), column = int(gl_GlobalInvocationID.x);         \
+        if (column < (column_count) && is_live_node(level, row, column))                \
+            kernel(level_offset(row, column), finer_offset(2 * row, 2 * column));       \
     }
+#define OVER_live_cell(kernel) OVER_CELLS(kernel, level.columns)
+#define OVER_live_finer_cell(kernel) OVER_CELLS(kernel, (finer.columns + 1) / 2)
 #endif

@@ -30,7 +30,7 @@ void set_scalar(int k, real a)
 
 #include "kernels/serial.kernel.glsl"
 
-#define SINGLE_PASS(kernel)                                             \
+#define OVER_single(kernel)                                             \
     void main()                                                         \
     {                                                                   \
         bool skipped = is_skipped();                                    \

@@ -2,7 +2,6 @@
 // One stage of explicit Euler or Runge-Kutta. From the second stage on its state is what the one before has left as the
 // next one; the last stage ends the step.
 #extension GL_GOOGLE_include_directive : require
-#define POSITION_OUT_ACCESS
 #define VELOCITY_OUT_ACCESS
 #include "list.glsl"
 #include "colliders.glsl"

@@ -1,6 +1,0 @@
-#version 460
-// Row sums and diagonal blocks of a mesh's level, from the operator of the finer one.
-#extension GL_GOOGLE_include_directive : require
-#include "solver_nodes.glsl"
-#include "kernels/mesh.kernel.glsl"
-LIVE_NODE_PASS(mesh_coarsen_nodes)
