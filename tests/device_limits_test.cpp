@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "backend/vulkan/device_limits.hpp"
+#include "backend/vulkan/layout.hpp"
 #include "backend/vulkan/pass_pipelines.hpp"
 #include "backend/vulkan/physical_devices.hpp"
 #include "backend/vulkan/shader_code.hpp"

@@ -1,5 +1,5 @@
-// What the table of passes says that a pass reads and writes, of which barriers are made: held against its shader,
-// buffer by buffer, and in the solver's arena, which is one buffer, against what the pass does there.
+// What the table of passes says that a pass reads and writes, of which barriers are made: held against its
+// shader, buffer by buffer, and in the solver's arena, which is one buffer, against what the pass does there.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -67,9 +67,9 @@ TEST(PassResources, AreTheBuffersOfTheShaders)
     const auto number = [](Binding binding) { return static_cast<std::uint32_t>(binding); };
     // What nobody writes: topology, and numbers of springs.
     const std::set<std::uint32_t> constant = {
-        number(Binding::springs),         number(Binding::spring_rest_class), number(Binding::neighbour_start),
-        number(Binding::neighbours),      number(Binding::triangles),         number(Binding::triangle_start),
-        number(Binding::node_triangles),  number(Binding::solver_topology),   number(Binding::body_topology)};
+        number(Binding::springs),        number(Binding::spring_rest_class), number(Binding::neighbour_start),
+        number(Binding::neighbours),     number(Binding::triangles),         number(Binding::triangle_start),
+        number(Binding::node_triangles), number(Binding::solver_topology),   number(Binding::body_topology)};
     for (std::uint32_t p = 0; p < all_passes().size(); ++p) {
         const PassDescription& pass = all_passes()[p];
         for (const bool fast : {false, true}) {
@@ -81,15 +81,16 @@ TEST(PassResources, AreTheBuffersOfTheShaders)
             for (const std::uint32_t binding : needs.written_buffers) {
                 // Where a pass leaves no sums, a loop over none of them is there all the same.
                 const bool no_sums = binding == number(Binding::solver_parts) && pass.sums.count == 0;
-                EXPECT_TRUE(no_sums || writes.count(binding) > 0) << pass.name << " writes buffer " << binding;
+                EXPECT_TRUE(no_sums || writes.count(binding) > 0)
+                    << pass.name << " writes buffer " << binding;
             }
             for (const std::uint32_t binding : writes)
                 EXPECT_TRUE(std::ranges::count(needs.written_buffers, binding) == 1)
                     << pass.name << " does not write buffer " << binding;
             for (const std::uint32_t binding : needs.read_buffers) {
                 // A pass of a solver looks at its guard.
-                const bool guard = is_solver_pass(static_cast<Pass>(p)) &&
-                                   binding == number(Binding::solver_scalars);
+                const bool guard =
+                    is_solver_pass(static_cast<Pass>(p)) && binding == number(Binding::solver_scalars);
                 EXPECT_TRUE(guard || constant.count(binding) > 0 || reads.count(binding) > 0)
                     << pass.name << " reads buffer " << binding;
             }
@@ -139,8 +140,8 @@ Scene scene_of(const ArenaCase& c)
     scene.acad.activate_at = 1e-4;
     scene.acad.deactivate_at = 1e-5;
     scene.air = {.velocity = {1, 3, 2}, .density = 1.2};
-    Cloth cloth = c.mesh ? Cloth::mesh(test::irregular_mesh(7, 9), {.density = 0.3})
-                         : test::flat_sheet(7, 9, 1.0, 0.8);
+    Cloth cloth =
+        c.mesh ? Cloth::mesh(test::irregular_mesh(7, 9), {.density = 0.3}) : test::flat_sheet(7, 9, 1.0, 0.8);
     cloth.springs = {{1000, 0.01}, {500, 0.01}, {1, 0}};
     if (c.stiff_bend) cloth.springs.bend.role = SpringRole::constraint;
     if (c.graded) cloth.springs.bend_model = BendModel::quadratic;
@@ -171,16 +172,15 @@ std::vector<Resource> resources_of_arena(const ClothModel& model)
     const int first_of_mesh = model.is_sheet() ? bent_sheet_planes : node_planes;
     for (std::size_t l = 0; l < hierarchy.level_count(); ++l) {
         const SolverLevel& level = hierarchy.levels[l];
-        const int planes = l > 0 ? level_planes
-                           : hierarchy.history_plane > 0
-                               ? hierarchy.history_plane + history_planes
-                           : !model.is_sheet()                ? node_planes
-                           : model.bends_by_constraints()     ? bent_sheet_planes
-                                                              : sheet_planes;
+        const int planes = l > 0                          ? level_planes
+                           : hierarchy.history_plane > 0  ? hierarchy.history_plane + history_planes
+                           : !model.is_sheet()            ? node_planes
+                           : model.bends_by_constraints() ? bent_sheet_planes
+                                                          : sheet_planes;
         for (int plane = 0; plane < planes; ++plane) {
             const bool history = hierarchy.history_plane > 0 && plane >= hierarchy.history_plane;
-            const bool vectors = plane < plane_mass || plane == plane_active ||
-                                 (plane >= plane_x && plane < plane_slide);
+            const bool vectors =
+                plane < plane_mass || plane == plane_active || (plane >= plane_x && plane < plane_slide);
             const bool blocks = (plane >= plane_block && plane < level_planes) ||
                                 (model.is_sheet() && plane >= plane_bend && plane < first_of_mesh);
             // Of a mesh a plane begins with its one row: planes overlap in the border that they do not have.

@@ -3,14 +3,16 @@
 
 #include <cstddef>
 
+#include "kernels/planes.hpp"
+
 namespace pliant {
 
 /// Nodes in rows, each row padded, with a border of padding all around: a kernel may read two nodes beyond
 /// any side, and write a whole SIMD pack at a row's end, without leaving the plane. A mesh is one row.
 /// Padding holds zeros and has inverse mass 0, so that whatever is computed there stays 0.
 struct NodeLayout {
-    static constexpr std::size_t pad = 16;  // floats; the widest pack, and a cache line
-    static constexpr std::size_t border_rows = 2;
+    static constexpr std::size_t pad = row_pad;  ///< floats; the widest pack, and a cache line
+    static constexpr std::size_t border_rows = pliant::border_rows;
 
     NodeLayout(std::size_t row_count, std::size_t column_count)
         : rows(row_count),

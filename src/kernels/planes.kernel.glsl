@@ -1,3 +1,6 @@
+// A plane of numbers begins with so many rows, and a row with so many columns, that no node has.
+const int border_rows = 2, row_pad = 16;
+
 // What the solver keeps, by number. A level of the hierarchy has planes of numbers, each as large as the level and laid
 // out like it; level 0, the cloth itself, has some more. Vectors take three planes, blocks six.
 
@@ -119,6 +122,7 @@ const int sum_renewed = 9;          // J: what limits are changed by that rememb
 const int sum_excess = 9;           // m4, before marks: of springs beyond ACAD's threshold
 const int sum_slots = 10;
 const int sum_columns = 64;         // that one part of a sum is of
+const int sum_lanes = 256;          // in which the parts are added up
 
 // The paper's solver (paper.kernel.glsl) has a level 0 alone, and these planes on it.
 const int paper_q = 0;              // m, position at the start of the step
@@ -180,3 +184,6 @@ const int scalar_dropping = 9;      // 1: the next step of conjugate gradients d
 const int scalar_rows_left = 10;    // constraints without those dropped
 const int scalar_right_side = 11;   // b . b
 const int sum_pushing = 5;          // unilateral constraints that push
+
+// A detail of sheet_gather: the last look of a step, for the energy alone.
+const int detail_last_look = 1;

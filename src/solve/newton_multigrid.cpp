@@ -148,7 +148,7 @@ private:
         add(Pass::newton_move, Guard::newton);
         for (std::uint32_t k = 0; k < search_tries; ++k) {
             if (k > 0) add(Pass::search_move, Guard::search);
-            evaluate(Guard::search, is_last && !cloth_.remembers_any() ? last_look : 0);
+            evaluate(Guard::search, is_last && !cloth_.remembers_any() ? detail_last_look : 0);
             add(Pass::search_check, Guard::search);
         }
         add(Pass::newton_check, Guard::newton);

@@ -100,16 +100,12 @@ constexpr std::uint32_t detail_of(std::uint32_t source, std::uint32_t relaxation
     return source | relaxation << 1;
 }
 
-/// A detail of sheet_gather: the last look of a step, for the energy alone.
-constexpr std::uint32_t last_look = 1;
-
 SumSlots sum_slots_of(Pass pass);
 
 constexpr std::uint32_t sum_slot_count = sum_slots;
 
 /// Sums are taken by one tree, whatever runs a pass: over groups of sum_columns columns (or edges, or rows)
 /// by halves, which leaves the parts; then over the parts, every 256th in a lane, and the lanes by halves.
-constexpr int sum_lanes = 256;
 constexpr int most_sums = 3;  ///< of one pass
 constexpr std::uint32_t solver_scalar_count = scalar_count;
 

@@ -75,7 +75,7 @@ struct SolverContext {
     Number* parts = nullptr;  ///< sums of groups, a row for each slot
     int part_stride = 0;
     const int* part_counts = nullptr;  ///< by slot
-    int bottom_base = 0, border_rows = 0, pad = 0;
+    int bottom_base = 0;
     NumberPlanes<Number> position, velocity, next_position, next_velocity, external_force;
     Number* multiplier = nullptr;
     const Number *inverse_mass = nullptr, *mass = nullptr;

@@ -279,7 +279,7 @@ struct SolverKernels {
         Lanes<T>::store(context.next_velocity.z + o, v.z);
     }
 
-    bool is_last_look() const { return detail_ == last_look; }
+    bool is_last_look() const { return static_cast<int>(detail_) == detail_last_look; }
     bool is_cloth() const { return is_cloth_; }
     bool is_acad() const { return constants.is_acad; }
     bool acad_has_memory() const { return constants.acad_has_memory; }
@@ -360,11 +360,11 @@ struct SolverKernels {
     void bottom_set_vector(int plane, int k, real a) const { *bottom_number(plane, k) = Lanes<T>::first(a); }
     int level_offset(int row, int column) const
     {
-        return (row + context.border_rows) * level.stride + context.pad + column;
+        return (row + border_rows) * level.stride + row_pad + column;
     }
     int finer_offset(int row, int column) const
     {
-        return (row + context.border_rows) * finer.stride + context.pad + column;
+        return (row + border_rows) * finer.stride + row_pad + column;
     }
 
 #include "kernels/acad.kernel.glsl"

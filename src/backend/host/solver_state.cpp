@@ -301,8 +301,6 @@ const SolverContext<T>& SolverState<T>::context(const Call& call, PlainCloth<T>&
     c.part_stride = part_stride_;
     c.part_counts = part_counts_.data();
     c.bottom_base = hierarchy_->bottom_base;
-    c.border_rows = NodeLayout::border_rows;
-    c.pad = NodeLayout::pad;
     c.position = pointers(cloth.position[call.parity]);
     c.velocity = pointers(cloth.velocity[call.parity]);
     c.next_position = pointers(cloth.position[1 - call.parity]);

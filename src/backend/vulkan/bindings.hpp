@@ -9,38 +9,12 @@
 
 namespace pliant::vulkan {
 
-/// Bindings of shaders/*.glsl.
 enum class Binding : std::uint32_t {
-    parameters = 0,
-    position_in = 1,
-    velocity_in = 2,
-    position_out = 3,
-    velocity_out = 4,
-    external_force = 5,
-    colliders = 6,
-    springs = 7,
-    spring_rest_class = 8,
-    neighbour_start = 9,
-    neighbours = 10,
-    triangles = 11,
-    triangle_start = 12,
-    node_triangles = 13,
-    spring_force = 14,
-    normal = 15,
-    strain = 16,
-    measures = 17,
-    solver = 18,
-    solver_arena = 19,
-    solver_scalars = 20,
-    solver_parts = 21,
-    solver_topology = 22,
-    multiplier = 23,
-    body_topology = 24,
-    gradient = 25,
-    direction = 26,
-    blocked = 27,
-    body_sums = 28,
-    slopes = 29,
+#define UNIFORM_BLOCK(name, number) name = number,
+#define STORAGE(name, number) name = number,
+#include "backend/vulkan/shaders/bindings.glsl"
+#undef UNIFORM_BLOCK
+#undef STORAGE
 };
 
 /// All other bindings are storage buffers.

@@ -3,7 +3,7 @@
 #include <bit>
 #include <cstring>
 
-#include "backend/vulkan/float4.hpp"
+#include "backend/vulkan/layout.hpp"
 
 namespace pliant::vulkan {
 namespace {
@@ -83,7 +83,9 @@ BodyBuffers::BodyBuffers(const Device& device, const ClothModel& model)
 
 std::uint32_t BodyBuffers::groups_of(const Call& call) const
 {
-    const auto groups = [](std::size_t n) { return static_cast<std::uint32_t>((n + 63) / 64); };
+    const auto groups = [](std::size_t n) {
+        return static_cast<std::uint32_t>((n + linear_group - 1) / linear_group);
+    };
     switch (unit_of(call.pass)) {
         case PassUnit::load: return groups(body_->loads.size());
         case PassUnit::fan_block: return static_cast<std::uint32_t>(body_->fan_blocks.size());

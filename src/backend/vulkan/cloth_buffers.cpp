@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstring>
 
-#include "backend/vulkan/float4.hpp"
+#include "backend/vulkan/layout.hpp"
 
 namespace pliant::vulkan {
 namespace {
@@ -19,16 +19,6 @@ vk::DescriptorType type_of(Binding binding)
 
 Float4 float4(Vector3<float> a, float w = 0) { return {a.x, a.y, a.z, w}; }
 Float4 float4(Vec3 a, float w) { return {a.x, a.y, a.z, w}; }
-
-/// As the uniform block of shaders/cloth.glsl.
-struct Parameters {
-    std::uint32_t rows = 0, columns = 0, node_count = 0, spring_count = 0;
-    std::uint32_t collider_count = 0, colliders_rest = 0, has_air = 0, attached_first = 0;
-    Float4 gravity_dt, gravity_direction, wind_density, drag_lift_thickness, stiffness, spring_damping;
-    Float4 rest_lengths, rest_lengths_more;
-    std::uint32_t colliders_first = 0, goals_first = 0, goals_stride = 0, grabbed_node = 0;
-    Float4 grab_target;
-};
 
 }  // namespace
 
@@ -291,7 +281,7 @@ void ClothBuffers::set_parameters(double step_length, std::uint32_t collider_cou
 {
     StepConstants<float> c(*model_, step_length);
     c.set(grab);
-    Parameters p;
+    Parameters p{};
     if (model_->sheet) {
         p.rows = model_->sheet->rows;
         p.columns = model_->sheet->columns;

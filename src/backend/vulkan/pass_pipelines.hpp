@@ -15,12 +15,6 @@
 
 namespace pliant::vulkan {
 
-/// As shaders/cloth.glsl.
-struct Push {
-    std::uint32_t index = 0, source_first = 0, source_count = 0, target_first = 0;
-    std::uint32_t level = 0, detail = 0, guard = 0, slot_first = 0, slot_count = 0;
-};
-
 /// Threads may share it.
 class PassPipelines {
 public:

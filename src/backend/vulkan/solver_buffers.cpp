@@ -4,46 +4,17 @@
 #include <array>
 #include <cstddef>
 #include <cstring>
+#include <iterator>
 
-#include "backend/vulkan/float4.hpp"
+#include "backend/vulkan/layout.hpp"
 
 namespace pliant::vulkan {
 namespace {
 
 using Usage = vk::BufferUsageFlagBits;
 
-constexpr std::int32_t group_columns = 64;  ///< of shaders/solver_nodes.glsl
-constexpr std::size_t most_levels = 32;     ///< more halvings than a row of 2^31 nodes allows
-constexpr std::size_t level_numbers = 24;   ///< integers that a level takes there
-constexpr std::size_t most_slots = 16;
+constexpr std::size_t most_slots = 4 * std::size(SolverBlock{}.part_counts);
 static_assert(sum_slot_count <= most_slots);
-static_assert(group_columns == sum_columns);
-
-// The order in which level_at() of shaders/solver.glsl reads them.
-static_assert(sizeof(SolverLevel) <= level_numbers * sizeof(std::int32_t));
-static_assert(offsetof(SolverLevel, size) == 4 * sizeof(std::int32_t));
-static_assert(offsetof(SolverLevel, edge_ends) == 8 * sizeof(std::int32_t));
-static_assert(offsetof(SolverLevel, held_start) == 10 * sizeof(std::int32_t));
-static_assert(offsetof(SolverLevel, fold_start) == 19 * sizeof(std::int32_t));
-
-/// As the uniform block of shaders/solver.glsl.
-struct SolverBlock {
-    Float4 step_contact;
-    Float4 curves[spring_class_count];
-    Float4 curve_damping, curve_reach;
-    float relaxations[SolverConstants<float>::most_relaxations]{};
-    float tolerances[4]{};
-    float softest[4]{}, compliance[4]{};
-    Float4 acad_above_below, acad_near, second_order;
-    std::uint32_t has_damping = 0, exact_bend = 0, is_graded = 0, contact_is_by_mass = 0;
-    std::uint32_t has[4]{}, remembers[4]{};
-    std::int32_t curve_kinds[4]{};
-    std::int32_t bottom_base = 0, part_stride = 0, history_plane = 0, padding = 0;
-    std::int32_t part_counts[most_slots]{};
-    std::int32_t levels[most_levels][level_numbers]{};
-};
-// What GLSL aligns to 16 bytes.
-static_assert(offsetof(SolverBlock, has) % 16 == 0 && offsetof(SolverBlock, part_counts) % 16 == 0);
 
 }  // namespace
 
@@ -66,7 +37,7 @@ SolverBuffers::SolverBuffers(const Device& device, const ClothModel& model) : mo
     const std::size_t bytes = hierarchy.number_count * sizeof(float);
     const std::string refusal = arena_refusal(model, device.info().name, device.info().max_buffer_range);
     if (!refusal.empty()) throw Error(ErrorKind::device_failure, refusal);
-    if (hierarchy.level_count() > most_levels)
+    if (hierarchy.level_count() > std::size_t{most_levels})
         throw Error(ErrorKind::device_failure,
                     "the constraint solver of a cloth has " + std::to_string(hierarchy.level_count()) +
                         " levels, and on Vulkan at most " + std::to_string(most_levels) +
@@ -138,7 +109,7 @@ void SolverBuffers::set_constants(double step_length)
     const Hierarchy& hierarchy = model_->hierarchy;
     if (hierarchy.empty()) return;
     const auto c = make_solver_constants<float>(*model_, step_length);
-    SolverBlock block;
+    SolverBlock block{};
     block.step_contact = {c.dt, c.inverse_dt, c.contact_stiffness, c.slip};
     for (std::size_t k = 0; k < spring_class_count; ++k) {
         const auto& curve = c.curves[k];
@@ -148,10 +119,8 @@ void SolverBuffers::set_constants(double step_length)
     }
     block.curve_damping = {c.curves[0].damping, c.curves[1].damping, c.curves[2].damping, c.polish_reach};
     block.curve_reach = {c.curves[0].reach, c.curves[1].reach, c.curves[2].reach, c.acad_reach};
-    std::copy(std::begin(c.relaxations), std::end(c.relaxations), block.relaxations);
-    block.tolerances[0] = c.linear_tolerance;
-    block.tolerances[1] = c.newton_tolerance;
-    block.tolerances[2] = c.enough_iterations;
+    std::copy(std::begin(c.relaxations), std::end(c.relaxations), &block.relaxations[0].x);
+    block.tolerances = {c.linear_tolerance, c.newton_tolerance, c.enough_iterations, 0};
     for (std::size_t k = 0; k < spring_class_count; ++k) {
         block.softest[k] = c.softest[k];
         block.compliance[k] = c.compliance[k];
@@ -173,9 +142,9 @@ void SolverBuffers::set_constants(double step_length)
     block.contact_is_by_mass = c.contact_is_by_mass ? 1 : 0;
     block.bottom_base = hierarchy.bottom_base;
     block.part_stride = sum_parts_.stride;
-    std::copy(sum_parts_.counts.begin(), sum_parts_.counts.end(), block.part_counts);
-    for (std::size_t k = 0; k < hierarchy.level_count(); ++k)
-        std::memcpy(block.levels[k], &hierarchy.levels[k], sizeof(SolverLevel));
+    for (std::size_t k = 0; k < sum_parts_.counts.size(); ++k)
+        block.part_counts[k / 4][k % 4] = sum_parts_.counts[k];
+    for (std::size_t k = 0; k < hierarchy.level_count(); ++k) block.levels[k] = hierarchy.levels[k];
     std::memcpy(constants_.mapped, &block, sizeof block);
 }
 

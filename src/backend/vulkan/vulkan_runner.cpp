@@ -7,7 +7,7 @@
 
 #include "backend/vulkan/barrier_plan.hpp"
 #include "backend/vulkan/cloth_buffers.hpp"
-#include "backend/vulkan/float4.hpp"
+#include "backend/vulkan/layout.hpp"
 #include "backend/vulkan/pass_pipelines.hpp"
 #include "backend/vulkan/segments.hpp"
 #include "backend/vulkan/sheet_tile.hpp"
@@ -19,21 +19,18 @@ namespace {
 
 using namespace vulkan;
 
-/// As collider_at() of shaders/colliders.glsl.
-using ColliderRow = std::array<Float4, 8>;
-
-ColliderRow pack_collider(const PlacedCollider& placed)
+ColliderRows pack_collider(const PlacedCollider& placed)
 {
     const auto c = make_collider<float>(placed);
     const auto row = [](Vector3<float> a, float w = 0) { return Float4{a.x, a.y, a.z, w}; };
-    return {row(c.centre, static_cast<float>(c.kind)),
-            row(c.axis_x, c.radius),
-            row(c.axis_y, c.friction),
-            row(c.axis_z, static_cast<float>(c.response)),
-            row(c.half_size),
-            row(c.velocity),
-            row(c.spin),
-            {}};
+    return {.centre_kind = row(c.centre, static_cast<float>(c.kind)),
+            .axis_x_radius = row(c.axis_x, c.radius),
+            .axis_y_friction = row(c.axis_y, c.friction),
+            .axis_z_response = row(c.axis_z, static_cast<float>(c.response)),
+            .half_size = row(c.half_size),
+            .velocity = row(c.velocity),
+            .spin = row(c.spin),
+            .unused = {}};
 }
 
 /// A segment of a program as commands, with a timestamp before, between and after its stretches of calls of
@@ -84,7 +81,6 @@ public:
     {
         // Colliders lie first, as each of the origins of cloths sees them; then places of attached nodes and
         // goals of bodies, each a row of four numbers.
-        constexpr std::size_t rows_of_collider = sizeof(ColliderRow) / sizeof(Float4);
         const std::size_t placed = input.colliders.size();
         std::size_t rows = rows_of_collider * placed * origins_.size();
         for (const std::vector<Vec3>& places : input.attached) rows += places.size();
@@ -93,8 +89,8 @@ public:
         reserve_colliders((rows + rows_of_collider - 1) / rows_of_collider);
         for (std::size_t o = 0; o < origins_.size(); ++o)
             for (std::size_t k = 0; k < placed; ++k) {
-                const ColliderRow row = pack_collider(seen_from(input.colliders[k], origins_[o]));
-                std::memcpy(static_cast<ColliderRow*>(colliders_.mapped) + o * placed + k, &row, sizeof row);
+                const ColliderRows row = pack_collider(seen_from(input.colliders[k], origins_[o]));
+                std::memcpy(static_cast<ColliderRows*>(colliders_.mapped) + o * placed + k, &row, sizeof row);
             }
         std::size_t first = rows_of_collider * placed * origins_.size();
         for (std::size_t c = 0; c < cloths_.size(); ++c) {
@@ -226,8 +222,6 @@ public:
 private:
     /// A host that varies its frames does not fill the memory.
     static constexpr std::size_t most_recordings = 64;
-    static constexpr std::uint32_t linear_group = 64;
-    static constexpr std::uint32_t sheet_group_x = 32, sheet_group_y = 4;
 
     static std::size_t part_count(const ClothBuffers& cloth)
     {
@@ -277,7 +271,8 @@ private:
             default: break;
         }
         if (layout_of(call.pass) == PassLayout::nodes)  // of a sheet, then
-            return {groups(model.sheet->columns, sheet_group_x), groups(model.sheet->rows, sheet_group_y)};
+            return {groups(model.sheet->columns, sheet_group_columns),
+                    groups(model.sheet->rows, sheet_group_rows)};
         return {groups(model.node_count(), linear_group)};
     }
 
@@ -316,7 +311,7 @@ private:
 
     void reserve_colliders(std::size_t count)
     {
-        const std::size_t bytes = count * sizeof(ColliderRow);
+        const std::size_t bytes = count * sizeof(ColliderRows);
         if (colliders_.size >= bytes && colliders_.size > 0) return;
         recordings_.clear();  // they hold the sets that change now
         colliders_ =
@@ -428,10 +423,13 @@ private:
     {
         const Call& call = dispatch.call;
         const ClothBuffers& cloth = cloths_[call.cloth];
-        Push push{call.index};
+        Push push{};
+        push.index = call.index;
         if (call.pass == Pass::measure_merge) {
             const auto from = cloth.tree().levels[call.index - 1];
-            push = {call.index, from.first, from.count, cloth.tree().levels[call.index].first};
+            push.source_first = from.first;
+            push.source_count = from.count;
+            push.target_first = cloth.tree().levels[call.index].first;
         }
         if (call.pass == Pass::attach)
             push.source_count = static_cast<std::uint32_t>(cloth.model().attached.size());

@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "colliders.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = linear_group) in;
 
 void main()
 {

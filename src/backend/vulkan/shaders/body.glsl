@@ -3,7 +3,7 @@
 // Soft bodies: their topology, and what they keep for each node. As body_buffers.cpp lays it out.
 #include "cloth.glsl"
 
-layout(set = 0, binding = 24, std430) readonly buffer BodyTopology { uint body_topology[]; };
+layout(set = 0, binding = binding_body_topology, std430) readonly buffer BodyTopology { uint body_topology[]; };
 
 // Where things begin in body_topology, and in body_sums (in vec4).
 const uint node_blocks_at = 0u, fan_blocks_at = 1u, parts_at = 2u, ring_start_at = 3u, ring_at = 4u, fan_start_at = 5u,

@@ -8,7 +8,7 @@
 #ifndef BODY_SUMS_ACCESS
 #define BODY_SUMS_ACCESS
 #endif
-layout(set = 0, binding = 28, std430) BODY_SUMS_ACCESS buffer BodySums { vec4 body_sums[]; };
+layout(set = 0, binding = binding_body_sums, std430) BODY_SUMS_ACCESS buffer BodySums { vec4 body_sums[]; };
 
 // Of a body: xyz its centre, w 6 V.
 vec4 record_of(uint body) { return body_sums[body_topology[records_at] + body]; }

@@ -8,7 +8,7 @@ layout(local_size_x = 1) in;
 
 void main()
 {
-    uint node = parameters.rows_first.w;
+    uint node = parameters.grabbed_node;
     velocity_in[node].xyz = grabbed_velocity(position_of(node), velocity_of(node), parameters.grab_target.xyz,
                                              parameters.gravity_dt.xyz, parameters.grab_target.w,
                                              parameters.rest_lengths_more.z, parameters.gravity_dt.w);

@@ -4,7 +4,7 @@
 #include "list.glsl"
 #include "measure_node.glsl"
 
-layout(local_size_x = 256) in;
+layout(local_size_x = block_group) in;
 
 void main()
 {

@@ -4,8 +4,8 @@
 #include "list.glsl"
 #include "step.glsl"
 
-layout(local_size_x = 64) in;
-layout(set = 0, binding = 14, std430) readonly buffer SpringForce { vec4 spring_forces[]; };
+layout(local_size_x = linear_group) in;
+layout(set = 0, binding = binding_spring_force, std430) readonly buffer SpringForce { vec4 spring_forces[]; };
 
 void main()
 {

@@ -3,8 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "list.glsl"
 
-layout(local_size_x = 64) in;
-layout(set = 0, binding = 16, std430) writeonly buffer Strain { float strains[]; };
+layout(local_size_x = linear_group) in;
+layout(set = 0, binding = binding_strain, std430) writeonly buffer Strain { float strains[]; };
 
 void main()
 {

@@ -3,8 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "body.glsl"
 
-layout(local_size_x = 64) in;
-layout(set = 0, binding = 5, std430) buffer ExternalForce { vec4 external_force[]; };
+layout(local_size_x = linear_group) in;
+layout(set = 0, binding = binding_external_force, std430) buffer ExternalForce { vec4 external_force[]; };
 
 vec3 vector_at(uint at)
 {

@@ -4,7 +4,7 @@
 // value is left.
 #include "cloth.glsl"
 
-layout(set = 0, binding = 17, std430) buffer Measures { vec4 measures[]; };  // two per value
+layout(set = 0, binding = binding_measures, std430) buffer Measures { vec4 measures[]; };  // two per value
 shared Measure block_values[256];
 
 Measure stored_measure(uint at)

@@ -3,8 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "triangles.glsl"
 
-layout(local_size_x = 64) in;
-layout(set = 0, binding = 15, std430) writeonly buffer Normal { vec4 normals[]; };
+layout(local_size_x = linear_group) in;
+layout(set = 0, binding = binding_normal, std430) writeonly buffer Normal { vec4 normals[]; };
 
 void main()
 {

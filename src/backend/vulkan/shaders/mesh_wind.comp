@@ -4,7 +4,7 @@
 #include "triangles.glsl"
 #include "wind.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = linear_group) in;
 
 void main()
 {

@@ -40,6 +40,6 @@ RingSums ring_sums(uint node)
 // Of a body at the end of this step: x 6 V that is wanted, y a sixth of the pressure.
 vec2 goal_of(uint body)
 {
-    return collider_rows[parameters.rows_first.y + push.index * parameters.rows_first.z + body].xy;
+    return collider_rows[parameters.goals_first + push.index * parameters.goals_stride + body].xy;
 }
 #endif

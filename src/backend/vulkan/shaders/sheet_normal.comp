@@ -3,8 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "sheet.glsl"
 
-layout(local_size_x = 32, local_size_y = 4) in;
-layout(set = 0, binding = 15, std430) writeonly buffer Normal { vec4 normals[]; };
+layout(local_size_x = sheet_group_columns, local_size_y = sheet_group_rows) in;
+layout(set = 0, binding = binding_normal, std430) writeonly buffer Normal { vec4 normals[]; };
 
 precise vec3 quadrant(ivec2 place, ivec2 first, ivec2 second)
 {

@@ -4,7 +4,7 @@
 #include "sheet_force.glsl"
 #include "step.glsl"
 
-layout(local_size_x = 32, local_size_y = 4) in;
+layout(local_size_x = sheet_group_columns, local_size_y = sheet_group_rows) in;
 
 vec3 near_position(ivec2 place) { return position_of(node_at(place)); }
 vec3 near_velocity(ivec2 place) { return velocity_of(node_at(place)); }

@@ -4,7 +4,7 @@
 #include "sheet.glsl"
 #include "wind.glsl"
 
-layout(local_size_x = 32, local_size_y = 4) in;
+layout(local_size_x = sheet_group_columns, local_size_y = sheet_group_rows) in;
 
 void main()
 {

@@ -8,62 +8,23 @@
 #define UNROLL  // drivers know when it pays; when told to, llvmpipe compiles for seconds
 #include "kernels/planes.kernel.glsl"
 
-// As body/hierarchy.hpp.
-struct SolverLevel
-{
-    int rows, columns, stride, base, size;
-    int edges, edge_base, edge_size, edge_ends, row_start, held_start;
-    int parents_start, children_start, loose_start, coupling_start;
-    int live, live_edges, held, loose, fold_start;
-};
+layout(set = 0, binding = binding_solver, std140) uniform SolverOfCloth { SolverBlock solver; };
+layout(set = 0, binding = binding_external_force, std430) readonly buffer ExternalForce { vec4 external_force[]; };
+layout(set = 0, binding = binding_solver_arena, std430) buffer Arena { float arena[]; };
+layout(set = 0, binding = binding_solver_scalars, std430) buffer Scalars { float scalars[]; };
+layout(set = 0, binding = binding_solver_parts, std430) buffer Parts { float parts[]; };
+layout(set = 0, binding = binding_solver_topology, std430) readonly buffer Topology { int topology_entries[]; };
+layout(set = 0, binding = binding_multiplier, std430) writeonly buffer Multiplier { float multiplier[]; };  // N, by node
 
-// As SolverBlock of solver_buffers.cpp.
-layout(set = 0, binding = 18, std140) uniform Solver
-{
-    vec4 step_contact;       // s, 1/s, contact stiffness, m (slip)
-    vec4 curves[3];          // LimitCurve by class: below, limit, beyond, compressed
-    vec4 curve_damping;      // N/m by class; w: m, polish_reach
-    vec4 curve_reach;        // by class; w: acad_reach
-    vec4 relaxations[2];
-    vec4 tolerances;         // of the linear solve, of Newton's method, and its iterations
-    vec4 softest;            // N/m, of limits that remember: by class with their compliance; z: that hold a node of a
-                             // mesh; w: without compliance
-    vec4 compliance;         // m/N, by class; z: N/m, as softest.z without compliance; w: N/m, the stiffest limit, too
-    vec4 acad_above_below;   // by length squared over rest length squared; z, w: of those held
-    vec4 acad_near;          // above, below; z: is it ACAD, w: does it remember
-    vec4 second_order;       // s, of BDF2; 1/s; a third; 1/s, what air takes
-    bool has_damping, exact_bend, is_graded, contact_is_by_mass;
-    bvec4 has;               // classes of springs
-    bvec4 remembers;         // by class; w: any
-    ivec4 curve_kinds;       // by class
-    int bottom_base, part_stride, history_plane, padding;
-    ivec4 part_counts[4];    // by slot
-    ivec4 levels[32 * 6];    // the numbers of SolverLevel, 24 for each
-} solver;
-
-layout(set = 0, binding = 5, std430) readonly buffer ExternalForce { vec4 external_force[]; };
-layout(set = 0, binding = 19, std430) buffer Arena { float arena[]; };
-layout(set = 0, binding = 20, std430) buffer Scalars { float scalars[]; };
-layout(set = 0, binding = 21, std430) buffer Parts { float parts[]; };
-layout(set = 0, binding = 22, std430) readonly buffer Topology { int topology_entries[]; };
-layout(set = 0, binding = 23, std430) writeonly buffer Multiplier { float multiplier[]; };  // N, by node
-
-SolverLevel level, finer;
+LevelNumbers level, finer;
 real sums[3] = real[3](0.0f, 0.0f, 0.0f);
 
 // The same for all invocations of a dispatch.
 bool is_skipped() { return push.guard != uint(scalar_count) && scalars[push.guard] != 0.0f; }
-SolverLevel level_at(uint k)
-{
-    ivec4 a = solver.levels[6u * k], b = solver.levels[6u * k + 1u], c = solver.levels[6u * k + 2u];
-    ivec4 d = solver.levels[6u * k + 3u], e = solver.levels[6u * k + 4u];
-    return SolverLevel(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w, d.x, d.y, d.z, d.w, e.x,
-                       e.y, e.z, e.w);
-}
 void find_levels()
 {
-    level = level_at(push.level);
-    finer = level_at(push.level > 0u ? push.level - 1u : 0u);
+    level = solver.levels[push.level];
+    finer = solver.levels[push.level > 0u ? push.level - 1u : 0u];
 }
 
 real multiply_add(real a, real b, real c) { return a * b + c; }  // rounded twice, as on the host
@@ -121,7 +82,7 @@ void finer_store3(int plane, int o, vec3 a)
 }
 int finer_coupling(int k)
 {
-    bool folded = push.level == 1u && solver.exact_bend && (k == 0 || k == 2);
+    bool folded = push.level == 1u && solver.exact_bend != 0u && (k == 0 || k == 2);
     return folded ? plane_fold + 3 * k : plane_block + 6 * k;
 }
 
@@ -132,7 +93,7 @@ real relaxation() { return solver.relaxations[push.detail / 8u][push.detail / 2u
 real scalar(int k) { return scalars[k]; }
 
 int sheet_class(int k) { return k >= 4 ? 2 : k % 2; }
-bool sheet_has(int k) { return solver.has[sheet_class(k)]; }
+bool sheet_has(int k) { return solver.has[sheet_class(k)] != 0u; }
 LimitCurve class_curve(int k)
 {
     vec4 c = solver.curves[k];
@@ -143,12 +104,12 @@ real sheet_rest(int k)
 {
     return rest_length_of(k == 0 ? 0u : k == 2 ? 1u : k < 4 ? 2u : k == 4 ? 3u : 4u);
 }
-bool has_damping() { return solver.has_damping; }
-bool is_graded() { return solver.is_graded; }
-bool has_bend() { return solver.has[bend]; }
-bool exact_bend() { return push.level == 0u && solver.exact_bend && solver.has[bend]; }
+bool has_damping() { return solver.has_damping != 0u; }
+bool is_graded() { return solver.is_graded != 0u; }
+bool has_bend() { return solver.has[bend] != 0u; }
+bool exact_bend() { return push.level == 0u && solver.exact_bend != 0u && solver.has[bend] != 0u; }
 real contact_stiffness() { return solver.step_contact.z; }
-bool contact_is_by_mass() { return solver.contact_is_by_mass; }
+bool contact_is_by_mass() { return solver.contact_is_by_mass != 0u; }
 real slip() { return solver.step_contact.w; }
 real thickness() { return parameters.drag_lift_thickness.z; }
 real decay() { return parameters.gravity_direction.w; }
@@ -167,8 +128,8 @@ real hand_hold() { return parameters.rest_lengths_more.z; }
 real linear_tolerance() { return solver.tolerances.x; }
 real newton_tolerance() { return solver.tolerances.y; }
 real enough_iterations() { return solver.tolerances.z; }
-bool remembers(int k) { return solver.remembers[k]; }
-bool remembers_any() { return solver.remembers.w; }
+bool remembers(int k) { return solver.remembers[k] != 0u; }
+bool remembers_any() { return solver.remembers.w != 0u; }
 real softest(int k) { return solver.softest[k]; }
 real softest_of_edge(int e, int k) { return e >= level.held && e < level.loose ? solver.softest.z : softest(k); }
 real bare_softest_of_edge(int e) { return e >= level.held && e < level.loose ? solver.compliance.z : solver.softest.w; }
@@ -177,7 +138,7 @@ real compliance(int k) { return solver.compliance[k]; }
 real polish_reach() { return solver.curve_damping.w; }
 real stiffest_limit() { return solver.compliance.w; }
 
-bool is_last_look() { return push.detail == 1u; }
+bool is_last_look() { return push.detail == uint(detail_last_look); }
 bool is_cloth() { return push.level == 0u; }
 bool is_acad() { return solver.acad_near.z != 0.0f; }
 bool acad_has_memory() { return solver.acad_near.w != 0.0f; }
@@ -193,10 +154,10 @@ real acad_reach() { return solver.curve_reach.w; }
 int collider_count() { return int(parameters.collider_count); }
 Collider collider(int k) { return collider_at(push.index, uint(k)); }
 
-// Rows and columns as NodeLayout (body/node_layout.hpp): two rows and 16 columns of padding before the first node.
-int level_offset(int row, int column) { return (row + 2) * level.stride + 16 + column; }
-int finer_offset(int row, int column) { return (row + 2) * finer.stride + 16 + column; }
-int node_at(int o) { return ((o - 16) / level.stride - 2) * level.columns + (o - 16) % level.stride; }
+// Rows and columns as NodeLayout (body/node_layout.hpp).
+int level_offset(int row, int column) { return (row + border_rows) * level.stride + row_pad + column; }
+int finer_offset(int row, int column) { return (row + border_rows) * finer.stride + row_pad + column; }
+int node_at(int o) { return ((o - row_pad) / level.stride - border_rows) * level.columns + (o - row_pad) % level.stride; }
 vec3 node_position(int o) { return position_in[node_at(o)].xyz; }
 vec3 node_velocity(int o) { return velocity_in[node_at(o)].xyz; }
 // Beyond the border, where no spring reaches, any node will do.
@@ -205,7 +166,7 @@ vec3 node_next_velocity(int o) { return velocity_out[node_at(o)].xyz; }
 void set_multiplier(int o, real a) { multiplier[node_at(o)] = a; }
 vec3 node_force(int o) { return parameters.has_air != 0u ? external_force[node_at(o)].xyz : vec3(0.0f); }
 real node_inverse_mass(int o) { return position_in[node_at(o)].w; }
-bool hand_is_near(int o) { return uint(node_at(o)) == parameters.rows_first.w && hand_hold() > 0.0f; }
+bool hand_is_near(int o) { return uint(node_at(o)) == parameters.grabbed_node && hand_hold() > 0.0f; }
 vec3 where_held(int o, vec3 held, vec3 otherwise) { return held; }  // there is but one lane, and it is near
 real node_mass(int o) { return velocity_in[node_at(o)].w; }
 void node_end(int o, vec3 x, vec3 v)

@@ -3,7 +3,7 @@
 // Passes over the nodes of a level: a group takes 64 columns of a row, and adds up what they leave in `sums`.
 #include "solver.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = sum_columns) in;
 shared real group_sums[gl_WorkGroupSize.x];
 
 // Nobody reads sums over coarser levels.
@@ -24,7 +24,7 @@ void leave_sums()
 
 // Of ACAD's solve: the flag of a row or group (kernels/acad.kernel.glsl).
 bool is_live(int flag) { return !is_acad() || number(flag) > 0.0f; }
-bool is_live_node(SolverLevel of, int row, int column)
+bool is_live_node(LevelNumbers of, int row, int column)
 {
     return is_live(of.live + (of.rows > 1 ? row : column / sum_columns));
 }

@@ -4,7 +4,7 @@
 // together; all of it runs the same text, and the first invocation alone writes.
 #include "solver.glsl"
 
-layout(local_size_x = 256) in;
+layout(local_size_x = sum_lanes) in;
 shared real group_sums[gl_WorkGroupSize.x];
 
 real total(int slot)

@@ -3,8 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "list.glsl"
 
-layout(local_size_x = 64) in;
-layout(set = 0, binding = 14, std430) writeonly buffer SpringForce { vec4 spring_forces[]; };
+layout(local_size_x = linear_group) in;
+layout(set = 0, binding = binding_spring_force, std430) writeonly buffer SpringForce { vec4 spring_forces[]; };
 
 void main()
 {

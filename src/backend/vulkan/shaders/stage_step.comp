@@ -6,10 +6,10 @@
 #include "list.glsl"
 #include "colliders.glsl"
 
-layout(local_size_x = 64) in;
-layout(set = 0, binding = 5, std430) readonly buffer ExternalForce { vec4 external_force[]; };
-layout(set = 0, binding = 14, std430) readonly buffer SpringForce { vec4 spring_forces[]; };
-layout(set = 0, binding = 29, std430) buffer Slopes { vec4 slopes[]; };  // of position, of velocity, by turns
+layout(local_size_x = linear_group) in;
+layout(set = 0, binding = binding_external_force, std430) readonly buffer ExternalForce { vec4 external_force[]; };
+layout(set = 0, binding = binding_spring_force, std430) readonly buffer SpringForce { vec4 spring_forces[]; };
+layout(set = 0, binding = binding_slopes, std430) buffer Slopes { vec4 slopes[]; };  // of position, of velocity, by turns
 
 void main()
 {

@@ -3,7 +3,7 @@
 // The end of every step: integrate, then let the colliders speak.
 #include "colliders.glsl"
 
-layout(set = 0, binding = 5, std430) readonly buffer ExternalForce { vec4 external_force[]; };
+layout(set = 0, binding = binding_external_force, std430) readonly buffer ExternalForce { vec4 external_force[]; };
 
 // A node after a step of the frame; `total` is all of the force.
 Motion stepped(Motion now, vec3 total, float inverse_mass, uint step)

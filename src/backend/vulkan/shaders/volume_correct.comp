@@ -6,8 +6,8 @@
 #include "body_cubics.glsl"
 #include "ring.glsl"
 
-layout(local_size_x = 256) in;
-layout(set = 0, binding = 26, std430) readonly buffer Direction { vec4 directions[]; };
+layout(local_size_x = block_group) in;
+layout(set = 0, binding = binding_direction, std430) readonly buffer Direction { vec4 directions[]; };
 
 void main()
 {

@@ -5,9 +5,9 @@
 #define POINT(node) position_out[node].xyz
 #define CHANGE(node) directions[node].xyz
 #include "cloth.glsl"
-layout(set = 0, binding = 26, std430) readonly buffer Direction { vec4 directions[]; };
+layout(set = 0, binding = binding_direction, std430) readonly buffer Direction { vec4 directions[]; };
 #include "body_fans.glsl"
 
-layout(local_size_x = 256) in;
+layout(local_size_x = block_group) in;
 
 void main() { sum_fans(); }

@@ -4,10 +4,10 @@
 #include "body_rates.glsl"
 #include "ring.glsl"
 
-layout(local_size_x = 256) in;
-layout(set = 0, binding = 5, std430) readonly buffer ExternalForce { vec4 external_force[]; };
-layout(set = 0, binding = 25, std430) writeonly buffer Gradient { vec4 gradients[]; };
-layout(set = 0, binding = 27, std430) readonly buffer BlockedNodes { vec4 blocked_nodes[]; };
+layout(local_size_x = block_group) in;
+layout(set = 0, binding = binding_external_force, std430) readonly buffer ExternalForce { vec4 external_force[]; };
+layout(set = 0, binding = binding_gradient, std430) writeonly buffer Gradient { vec4 gradients[]; };
+layout(set = 0, binding = binding_blocked, std430) readonly buffer BlockedNodes { vec4 blocked_nodes[]; };
 
 void main()
 {

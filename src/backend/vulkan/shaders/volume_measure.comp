@@ -7,6 +7,6 @@
 #include "cloth.glsl"
 #include "body_fans.glsl"
 
-layout(local_size_x = 256) in;
+layout(local_size_x = block_group) in;
 
 void main() { sum_fans(); }

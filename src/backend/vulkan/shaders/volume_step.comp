@@ -6,10 +6,10 @@
 #include "body_rates.glsl"
 #include "ring.glsl"
 
-layout(local_size_x = 256) in;
-layout(set = 0, binding = 25, std430) readonly buffer Gradient { vec4 gradients[]; };
-layout(set = 0, binding = 26, std430) writeonly buffer Direction { vec4 directions[]; };
-layout(set = 0, binding = 27, std430) writeonly buffer BlockedNodes { vec4 blocked_nodes[]; };
+layout(local_size_x = block_group) in;
+layout(set = 0, binding = binding_gradient, std430) readonly buffer Gradient { vec4 gradients[]; };
+layout(set = 0, binding = binding_direction, std430) writeonly buffer Direction { vec4 directions[]; };
+layout(set = 0, binding = binding_blocked, std430) writeonly buffer BlockedNodes { vec4 blocked_nodes[]; };
 
 void main()
 {

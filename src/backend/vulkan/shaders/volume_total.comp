@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "body_cubics.glsl"
 
-layout(local_size_x = 256) in;
+layout(local_size_x = block_group) in;
 
 void main()
 {

@@ -3,7 +3,7 @@
 // A triangle's wind on one of its corners.
 #include "cloth.glsl"
 
-layout(set = 0, binding = 5, std430) writeonly buffer ExternalForce { vec4 external_force[]; };
+layout(set = 0, binding = binding_external_force, std430) writeonly buffer ExternalForce { vec4 external_force[]; };
 
 precise vec3 wind_on(uint i, uint j, uint k)
 {
