@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "backend/vulkan/sheet_tile.hpp"
-#include "bench_command.hpp"
+#include "bench/bench_command.hpp"
 #include "commands.hpp"
 #include "pliant/error.hpp"
 #include "pliant/version.hpp"

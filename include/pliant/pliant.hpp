@@ -4,6 +4,7 @@
 #include "pliant/error.hpp"
 #include "pliant/mesh.hpp"
 #include "pliant/mesh_generators.hpp"
+#include "pliant/options.hpp"
 #include "pliant/scene.hpp"
 #include "pliant/simulation.hpp"
 #include "pliant/vec3.hpp"

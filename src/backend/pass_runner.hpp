@@ -10,7 +10,7 @@
 
 #include "body/cloth_model.hpp"
 #include "body/collider_motion.hpp"
-#include "pliant/simulation.hpp"
+#include "pliant/options.hpp"
 #include "solve/pass.hpp"
 
 namespace pliant {

@@ -1,7 +1,7 @@
 // What `pliant info` lists.
 #include "backend/cpu/kernels.hpp"
 #include "backend/vulkan/device_info.hpp"
-#include "pliant/simulation.hpp"
+#include "pliant/options.hpp"
 
 namespace pliant {
 

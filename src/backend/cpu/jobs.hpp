@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "pliant/simulation.hpp"
+#include "pliant/options.hpp"
 
 namespace pliant::cpu {
 

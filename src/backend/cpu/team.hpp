@@ -10,7 +10,7 @@
 #include <exception>
 #include <functional>
 
-#include "pliant/simulation.hpp"
+#include "pliant/options.hpp"
 
 namespace pliant::cpu {
 

@@ -24,6 +24,7 @@ struct ivec4 {
 
 static_assert(sizeof(ColliderRows) == rows_of_collider * sizeof(vec4));
 static_assert(sizeof(LevelNumbers) % sizeof(vec4) == 0);
-static_assert(offsetof(SolverBlock, has) % sizeof(vec4) == 0 && offsetof(SolverBlock, levels) % sizeof(vec4) == 0);
+static_assert(offsetof(SolverBlock, has) % sizeof(vec4) == 0 &&
+              offsetof(SolverBlock, levels) % sizeof(vec4) == 0);
 
 }  // namespace pliant::vulkan

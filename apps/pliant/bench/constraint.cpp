@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include "bench_command.hpp"
-#include "bench_harness.hpp"
+#include "bench/bench_command.hpp"
+#include "bench/harness.hpp"
 #include "pliant/extremes.hpp"
 #include "simulation/linear_benchmark.hpp"
 

@@ -1,4 +1,4 @@
-#include "bench_stepping.hpp"
+#include "bench/stepping.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -9,8 +9,8 @@
 
 #include "backend/cpu/jobs.hpp"
 #include "backend/vulkan/device_state.hpp"
-#include "bench_bytes.hpp"
-#include "bench_harness.hpp"
+#include "bench/bytes.hpp"
+#include "bench/harness.hpp"
 #include "bullet_cloth.hpp"
 #include "serial_scene.hpp"
 

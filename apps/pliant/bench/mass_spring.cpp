@@ -2,8 +2,8 @@
 // of a node.
 #include <cmath>
 
-#include "bench_memory.hpp"
-#include "bench_stepping.hpp"
+#include "bench/memory.hpp"
+#include "bench/stepping.hpp"
 #include "pliant/mesh_generators.hpp"
 
 namespace pliant::tool {

@@ -1,4 +1,4 @@
-#include "bench_harness.hpp"
+#include "bench/harness.hpp"
 
 #include <algorithm>
 #include <chrono>

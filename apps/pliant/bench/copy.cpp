@@ -5,7 +5,7 @@
 
 #include "backend/cpu/jobs.hpp"
 #include "backend/vulkan/device_state.hpp"
-#include "bench_harness.hpp"
+#include "bench/harness.hpp"
 #include "stopwatch.hpp"
 
 namespace pliant::tool {
@@ -23,10 +23,10 @@ public:
         const auto start = Clock::now();
         jobs_->run(
             threads_,
-            [](void* context, unsigned index) {
+            [](void* context, unsigned part) {
                 auto& copy = *static_cast<HostCopy*>(context);
-                const std::size_t begin = copy.from_.size() * index / copy.threads_;
-                const std::size_t end = copy.from_.size() * (index + 1) / copy.threads_;
+                const std::size_t begin = copy.from_.size() * part / copy.threads_;
+                const std::size_t end = copy.from_.size() * (part + 1) / copy.threads_;
                 std::memcpy(copy.to_.data() + begin, copy.from_.data() + begin, end - begin);
             },
             this);

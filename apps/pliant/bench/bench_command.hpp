@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bench_table.hpp"
+#include "bench/table.hpp"
 #include "pliant/scene.hpp"
 #include "pliant/simulation.hpp"
 

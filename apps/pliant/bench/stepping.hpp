@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "bench_command.hpp"
+#include "bench/bench_command.hpp"
 
 namespace pliant::tool {
 

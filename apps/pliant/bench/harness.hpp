@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "bench_table.hpp"
+#include "bench/table.hpp"
 #include "pliant/simulation.hpp"
 
 namespace pliant::tool {

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "bench_table.hpp"
+#include "bench/table.hpp"
 #include "files/atomic_file.hpp"
 
 namespace pliant::tool {

@@ -1,4 +1,4 @@
-#include "bench_table.hpp"
+#include "bench/table.hpp"
 
 #include <algorithm>
 #include <cstdio>

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "bench_command.hpp"
+#include "bench/bench_command.hpp"
 #include "pliant/mesh_generators.hpp"
 
 namespace pliant::tool {

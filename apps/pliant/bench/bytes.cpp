@@ -1,4 +1,4 @@
-#include "bench_bytes.hpp"
+#include "bench/bytes.hpp"
 
 namespace pliant::tool {
 namespace {

@@ -4,9 +4,9 @@
 
 #include "backend/cpu/kernels.hpp"
 #include "backend/vulkan/sheet_tile.hpp"
-#include "bench_bytes.hpp"
-#include "bench_harness.hpp"
-#include "bench_stepping.hpp"
+#include "bench/bytes.hpp"
+#include "bench/harness.hpp"
+#include "bench/stepping.hpp"
 
 namespace pliant::tool {
 namespace {

@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "bench_files.hpp"
+#include "bench/files.hpp"
 
 namespace pliant::tool {
 namespace {
@@ -22,14 +22,14 @@ struct Series {
 std::vector<Series> series_of(std::span<const BenchRow> rows)
 {
     std::vector<Series> all;
-    std::map<std::string, std::size_t> index;
+    std::map<std::string, std::size_t> places;
     for (const BenchRow& row : rows) {
         if (!row.in_plot || !row.time || row.time->median <= 0 || row.nodes == 0) continue;
         const bool baseline = row.backend == "serial" || row.backend == "btSoftBody";
         std::string name = (row.series.empty() ? row.subject : row.series) + " · " + row.backend;
         if (row.backend == "cpu")
             name += row.threads == 1 ? ", 1 thread" : ", " + std::to_string(row.threads) + " threads";
-        const auto [found, is_new] = index.emplace(name, all.size());
+        const auto [found, is_new] = places.emplace(name, all.size());
         if (is_new) all.push_back({name, baseline, {}});
         const double scale = 1e6 / static_cast<double>(row.nodes);
         all[found->second].points.push_back({static_cast<double>(row.nodes), scale * row.time->least,

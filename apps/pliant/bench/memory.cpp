@@ -1,4 +1,4 @@
-#include "bench_memory.hpp"
+#include "bench/memory.hpp"
 
 #include <malloc.h>
 

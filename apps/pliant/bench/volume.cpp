@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "bench_stepping.hpp"
+#include "bench/stepping.hpp"
 #include "pliant/mesh_generators.hpp"
 
 namespace pliant::tool {

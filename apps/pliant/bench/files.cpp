@@ -1,4 +1,4 @@
-#include "bench_files.hpp"
+#include "bench/files.hpp"
 
 #include <array>
 #include <cmath>

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench_command.hpp"
-#include "bench_harness.hpp"
+#include "bench/bench_command.hpp"
+#include "bench/harness.hpp"
 #include "pliant/extremes.hpp"
 
 namespace pliant::tool {

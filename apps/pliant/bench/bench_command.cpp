@@ -1,4 +1,4 @@
-#include "bench_command.hpp"
+#include "bench/bench_command.hpp"
 
 #include <fstream>
 #include <memory>
@@ -6,7 +6,7 @@
 #include <set>
 #include <thread>
 
-#include "bench_files.hpp"
+#include "bench/files.hpp"
 #include "commands.hpp"
 #include "pliant/error.hpp"
 #include "pliant/version.hpp"
