@@ -22,11 +22,12 @@ struct LaneTable {
 struct MeshLanes {
     /// Floats of a vector in a record, and of the displacement of a node and where it started.
     static constexpr int vector_size = 4, state_size = 8;
-    /// Of nodes. Places are of records, in floats; a filled entry is the node itself, without a coupling.
+    /// Of nodes. Places are of records, in floats; a filled entry is the node itself, without a coupling. The
+    /// weight is 1 at an edge's first node and -1 at its second.
     LaneTable neighbours;
-    const std::int32_t* neighbour_edges = nullptr;  ///< by entry: 2 e, and 1 more at the edge's second node
+    const std::int32_t* neighbour_edges = nullptr;  ///< by entry: twice the edge's number
     float* couplings = nullptr;                     ///< by row: 6 numbers of 16 lanes, N/m
-    LaneTable held, loose;                          ///< of the cloth: places are as neighbour_edges
+    LaneTable held, loose;                          ///< of the cloth: places are twice edges, weights as above
     float* vectors = nullptr;                       ///< records of a vector that neighbours are asked for
     float* states = nullptr;                        ///< of the cloth: the same
     // Of edges of the cloth: records of their ends, in floats, and the class of springs.

@@ -39,11 +39,16 @@ KERNEL static Symmetric symmetric_of(const SixNumbers<T>& a)
     const T* n = a.numbers;
     return {n[0], n[1], n[2], n[3], n[4], n[5]};
 }
-/// Blocks of a level, each at half of a number where `shift` is 1.
-template <int shift>
-KERNEL Symmetric blocks_at(const SolverLevel& of, const std::int32_t* place) const
+/// Blocks of a level, by twice their numbers.
+KERNEL Symmetric blocks_at(const SolverLevel& of, const std::int32_t* twice) const
 {
-    return symmetric_of(Record::template sixes<shift>(context.arena + of.edge_base, place));
+    return symmetric_of(Record::template sixes<3>(context.arena + of.edge_base, twice));
+}
+/// Of neighbouring blocks from `first` on.
+KERNEL void store_blocks_in_a_row(Symmetric a, int count, int first) const
+{
+    Record::store_sixes_in_a_row(context.arena + (level.edge_base + 6 * first),
+                                 {{a.xx, a.xy, a.xz, a.yy, a.yz, a.zz}}, count);
 }
 template <class Place>
 KERNEL void store_blocks(Symmetric a, int count, const Place& place) const
@@ -55,7 +60,7 @@ KERNEL void store_blocks(Symmetric a, int count, const Place& place) const
 KERNEL void store_row_sums(int o, Symmetric a)
 {
     const int first = mesh_node(o);
-    store_blocks(a, lanes_left(first, level.columns), [&](int lane) { return level.edges + first + lane; });
+    store_blocks_in_a_row(a, lanes_left(first, level.columns), level.edges + first);
     store6(plane_row_sum, o, a);
 }
 /// The couplings of nodes with their neighbours lie row by row: a stream for the product.
@@ -107,8 +112,8 @@ KERNEL void find_lengths(SpringGroup& group, int first, int last) const
     const Number* states = lanes().states;
     for (int k = 0; first + k < last; k += Lanes<T>::count) {
         const std::int32_t *i = lanes().first_end + first + k, *j = lanes().second_end + first + k;
-        const vec3 start = Record::differences(states, i, j);
-        const vec3 d = start + Record::differences(states + MeshLanes::vector_size, i, j);
+        const auto [start, moved] = Record::differences(states, i, j);
+        const vec3 d = start + moved;
         put3(group.start + k, sum_columns, start.x, start.y, start.z);
         put3(group.d + k, sum_columns, d.x, d.y, d.z);
         Lanes<T>::store(group.length2 + k, dot3(d, d));
@@ -163,7 +168,7 @@ KERNEL void springs_lanes(const SpringGroup& group, int first, int e)
     spring = with_bending(e, spring, d);
     Record::store_fours(edge_at(edge_force, 4, e),
                         {spring.force.x, spring.force.y, spring.force.z, mesh_taut(spring)}, count);
-    store_blocks(spring.block, count, [&](int lane) { return e + lane; });
+    store_blocks_in_a_row(spring.block, count, e);
     sums[0] = sums[0] + choose(Lanes<T>::first_lanes(count), spring.energy, real(0.0f));
 }
 KERNEL static SpringState chosen(mask m, SpringState a, SpringState b)
@@ -187,14 +192,13 @@ void springs_of_groups(Pass pass, int begin, int end)
 KERNEL void fold_lanes(int e)
 {
     if (e >= level.loose) return;
-    store_blocks(sum_of_blocks(level, lanes().folds, e), lanes_left(e, level.loose),
-                 [&](int lane) { return e + lane; });
+    store_blocks_in_a_row(sum_of_blocks(level, lanes().folds, e), lanes_left(e, level.loose), e);
 }
 
-/// The force of springs, and whether they are taut.
-KERNEL FourNumbers<T> force_at(const std::int32_t* place) const
+/// The force of springs, by twice their numbers, and whether they are taut.
+KERNEL FourNumbers<T> force_at(const std::int32_t* twice) const
 {
-    return Record::fours(edge_at(edge_force, 4, 0), place);
+    return Record::template fours<2>(edge_at(edge_force, 4, 0), twice);
 }
 KERNEL void gather_lanes(int o)
 {
@@ -203,21 +207,21 @@ KERNEL void gather_lanes(int o)
     const LaneTable &held = lanes().held, &neighbours = lanes().neighbours;
     for (const int entry : entries_of(held, first)) {
         const FourNumbers<T> force = force_at(held.place + entry);
-        node = with_spring(node, {force.x, force.y, force.z}, blocks_at<1>(level, held.place + entry),
-                           Record::signs(held.place + entry));
+        node = with_spring(node, {force.x, force.y, force.z}, blocks_at(level, held.place + entry),
+                           Lanes<T>::load(held.weight + entry));
         node.taut = node.taut + force.w;
     }
     store_row_sums(o, where_else_zero(node.mass > 0.0f, node.row_sum));
     const LaneTable& loose = lanes().loose;
     for (const int entry : entries_of(loose, first)) {
         const FourNumbers<T> force = force_at(loose.place + entry);
-        node = with_force(node, {force.x, force.y, force.z}, Record::signs(loose.place + entry));
+        node = with_force(node, {force.x, force.y, force.z}, Lanes<T>::load(loose.weight + entry));
     }
     for (const int entry : entries_of(neighbours, first)) {
         const std::int32_t* place = lanes().neighbour_edges + entry;
         const FourNumbers<T> force = force_at(place);
-        const Symmetric block = blocks_at<1>(level, place);
-        const real side = Record::signs(place);
+        const Symmetric block = blocks_at(level, place);
+        const real side = Lanes<T>::load(neighbours.weight + entry);
         node = with_spring(node, {force.x, force.y, force.z}, block, side);
         node.taut = node.taut + choose(side > 0.0f, force.w, real(0.0f));
         store_coupling(entry, block);
@@ -235,8 +239,8 @@ KERNEL void multiply_lanes(int e)
 {
     const std::int32_t *i = lanes().first_end + e, *j = lanes().second_end + e;
     const Number* states = lanes().states;
-    const vec3 d =
-        Record::differences(states, i, j) + Record::differences(states + MeshLanes::vector_size, i, j);
+    const auto [start, moved] = Record::differences(states, i, j);
+    const vec3 d = start + moved;
     const real spring_class = Lanes<T>::load(lanes().spring_class + e);
     const mask is_there = Lanes<T>::first_lanes(level.edges - e);
     const int only = lanes().class_of_group[e / sum_columns];
@@ -276,7 +280,7 @@ KERNEL Symmetric sum_of_blocks(const SolverLevel& of, const LaneTable& table, in
 {
     Symmetric a = symmetric_diagonal(real(0.0f));
     for (const int entry : entries_of(table, first)) {
-        a = plus_scaled(a, blocks_at<0>(of, table.place + entry), Lanes<T>::load(table.weight + entry));
+        a = plus_scaled(a, blocks_at(of, table.place + entry), Lanes<T>::load(table.weight + entry));
     }
     return a;
 }
@@ -294,13 +298,13 @@ KERNEL void coarsen_nodes_lanes(int o)
     Symmetric row_sum = symmetric_diagonal(real(0.0f));
     for (const int entry : entries_of(children, first)) {
         row_sum =
-            plus_scaled(row_sum, symmetric_of(Record::template sixes<0>(row_sums, children.place + entry)),
+            plus_scaled(row_sum, symmetric_of(Record::template sixes<6>(row_sums, children.place + entry)),
                         Lanes<T>::load(children.weight + entry));
     }
     store_row_sums(o, row_sum);
     Symmetric diagonal = row_sum;
     for (const int entry : entries_of(neighbours, first)) {
-        const Symmetric block = blocks_at<1>(level, lanes().neighbour_edges + entry);
+        const Symmetric block = blocks_at(level, lanes().neighbour_edges + entry);
         store_coupling(entry, block);
         diagonal = plus(diagonal, block);
     }
