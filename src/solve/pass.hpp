@@ -82,6 +82,8 @@ constexpr std::uint32_t detail_of(std::uint32_t source, std::uint32_t relaxation
 
 /// A detail of sheet_gather: the last look of a step, for the energy alone.
 constexpr std::uint32_t last_look = 1;
+/// One that a polish follows: forces and diagonals are asked for, and no couplings.
+constexpr std::uint32_t polish_look = 2;
 
 /// Sums that a pass leaves in parts.
 struct SumSlots {

@@ -38,10 +38,10 @@ struct MeshLanes {
     // How this level comes from the finer one, by weights. A filled entry has the weight -0 and the number 0.
     LaneTable parents;   ///< of nodes of the finer one; places are of records, in floats
     LaneTable children;  ///< of nodes; places are nodes of the finer one
-    LaneTable
-        sources;  ///< of edges, in an order of their own, source_edges; places are blocks of the finer one
+    /// Of edges, in an order of their own, source_edges; places are twice blocks of the finer one.
+    LaneTable sources;
     const std::int32_t* source_edges = nullptr;
-    LaneTable folds;  ///< of edges of the cloth: places are blocks of the level
+    LaneTable folds;  ///< of edges of the cloth, what is folded onto them; places are twice blocks of the level
 };
 
 /// Passes of meshes that find their neighbours in records, which must be made before.

@@ -145,9 +145,9 @@ bool knows_step(int o) const
 }
 
 /// Where classes are mixed in a group, the state by each is computed for all lanes.
-KERNEL void springs_lanes(const SpringGroup& group, int first, int e)
+KERNEL SpringShare spring_of_lanes(const SpringGroup& group, int first, int e)
 {
-    const int k = e - first, count = lanes_left(e, level.edges);
+    const int k = e - first;
     const vec3 start = three<&Lanes<T>::load>(group.start + k, sum_columns);
     const vec3 d = three<&Lanes<T>::load>(group.d + k, sum_columns);
     const real length2 = Lanes<T>::load(group.length2 + k),
@@ -164,35 +164,84 @@ KERNEL void springs_lanes(const SpringGroup& group, int first, int e)
     }
     vec3 damper = start;
     if (is_second_order() && has_damping()) damp_lanes(e, start, curve, damper);
-    SpringShare spring = share_of(state, curve.damping, start, d, damper, inverse_length, mesh_scale(e));
-    spring = with_bending(e, spring, d);
+    const SpringShare spring =
+        share_of(state, curve.damping, start, d, damper, inverse_length, mesh_scale(e));
+    return with_bending(e, spring, d);
+}
+KERNEL void leave_spring(int e, const SpringShare& spring, Symmetric block)
+{
+    const int count = lanes_left(e, level.edges);
     Record::store_fours(edge_at(edge_force, 4, e),
                         {spring.force.x, spring.force.y, spring.force.z, mesh_taut(spring)}, count);
-    store_blocks_in_a_row(spring.block, count, e);
+    store_blocks_in_a_row(block, count, e);
     sums[0] = sums[0] + choose(Lanes<T>::first_lanes(count), spring.energy, real(0.0f));
+}
+KERNEL void springs_lanes(const SpringGroup& group, int first, int e)
+{
+    const SpringShare spring = spring_of_lanes(group, first, e);
+    leave_spring(e, spring, spring.block);
 }
 KERNEL static SpringState chosen(mask m, SpringState a, SpringState b)
 {
     return {choose(m, a.force, b.force), choose(m, a.along, b.along), choose(m, a.across, b.across),
             choose(m, a.energy, b.energy), choose(m, a.multiplier, b.multiplier)};
 }
-void springs_of_groups(Pass pass, int begin, int end)
+/// Where loose springs are folded, the springs before them are computed in mesh_fold, which then has their
+/// blocks at hand. A group of both is in mesh_springs; so is all that is asked of them where nothing is folded.
+int folding_groups() const { return level.folds() ? level.loose / sum_columns : 0; }
+/// Groups [first, end) for the part [begin, finish) of those that the pass is divided into.
+template <class Function>
+void for_part(int first, int end, int begin, int finish, const Function& function) const
 {
-    const SumSlots slots = sum_slots_of(pass);
+    const std::int64_t all = sum_groups(level.edges), count = end - first;
+    function(first + static_cast<int>(count * begin / all), first + static_cast<int>(count * finish / all));
+}
+template <auto kernel>
+void springs_of_groups(int begin, int end)
+{
+    const SumSlots slots = sum_slots_of(Pass::mesh_springs);
     SolverKernels self = *this;
     SpringGroup springs;
     for (int group = begin; group < end; ++group) {
         const int first = group * sum_columns;
         const int last = first + sum_columns < level.edges ? first + sum_columns : level.edges;
         self.find_lengths(springs, first, last);
-        self.summed(slots, group, first, last, [&](int e) { self.springs_lanes(springs, first, e); });
+        self.summed(slots, group, first, last, [&](int e) { (self.*kernel)(springs, first, e); });
     }
 }
+void springs_not_folding(int begin, int end)
+{
+    for_part(folding_groups(), sum_groups(level.edges), begin, end,
+             [&](int from, int to) { springs_of_groups<&SolverKernels::springs_lanes>(from, to); });
+}
+void springs_folding(int begin, int end)
+{
+    const int folding = folding_groups();
+    for_part(0, folding + 1, begin, end, [&](int from, int to) {
+        const int last = to < folding ? to : folding;
+        springs_of_groups<&SolverKernels::folded_springs_lanes>(from, last);
+        if (from <= folding && folding < to)
+            for (int e = folding * sum_columns; e < level.loose; e += Lanes<T>::count) fold_lanes(e);
+    });
+}
 
+/// A spring's block with those that are folded onto it.
+KERNEL Symmetric with_folds(Symmetric own, int e)
+{
+    const Symmetric first = plus_scaled(symmetric_diagonal(real(0.0f)), own, real(1.0f));
+    return plus_blocks(first, level, lanes().folds, e);
+}
+KERNEL void folded_springs_lanes(const SpringGroup& group, int first, int e)
+{
+    const SpringShare spring = spring_of_lanes(group, first, e);
+    leave_spring(e, spring, with_folds(spring.block, e));
+}
+/// Of a group whose springs mesh_springs has left.
 KERNEL void fold_lanes(int e)
 {
-    if (e >= level.loose) return;
-    store_blocks_in_a_row(sum_of_blocks(level, lanes().folds, e), lanes_left(e, level.loose), e);
+    std::int32_t own[Lanes<T>::count];
+    for (int lane = 0; lane < Lanes<T>::count; ++lane) own[lane] = 2 * (e + lane < level.loose ? e + lane : e);
+    store_blocks_in_a_row(with_folds(blocks_at(level, own), e), lanes_left(e, level.loose), e);
 }
 
 /// The force of springs, by twice their numbers, and whether they are taut.
@@ -211,7 +260,8 @@ KERNEL void gather_lanes(int o)
                            Lanes<T>::load(held.weight + entry));
         node.taut = node.taut + force.w;
     }
-    store_row_sums(o, where_else_zero(node.mass > 0.0f, node.row_sum));
+    const bool is_multiplied = !is_polish_look();
+    if (is_multiplied) store_row_sums(o, where_else_zero(node.mass > 0.0f, node.row_sum));
     const LaneTable& loose = lanes().loose;
     for (const int entry : entries_of(loose, first)) {
         const FourNumbers<T> force = force_at(loose.place + entry);
@@ -224,7 +274,7 @@ KERNEL void gather_lanes(int o)
         const real side = Lanes<T>::load(neighbours.weight + entry);
         node = with_spring(node, {force.x, force.y, force.z}, block, side);
         node.taut = node.taut + choose(side > 0.0f, force.w, real(0.0f));
-        store_coupling(entry, block);
+        if (is_multiplied) store_coupling(entry, block);
     }
     leave_mesh_node(o, node);
 }
@@ -278,7 +328,10 @@ KERNEL void residual_lanes(int o) { leave_residual(o, lanes_product(source_plane
 
 KERNEL Symmetric sum_of_blocks(const SolverLevel& of, const LaneTable& table, int first)
 {
-    Symmetric a = symmetric_diagonal(real(0.0f));
+    return plus_blocks(symmetric_diagonal(real(0.0f)), of, table, first);
+}
+KERNEL Symmetric plus_blocks(Symmetric a, const SolverLevel& of, const LaneTable& table, int first)
+{
     for (const int entry : entries_of(table, first)) {
         a = plus_scaled(a, blocks_at(of, table.place + entry), Lanes<T>::load(table.weight + entry));
     }
@@ -339,8 +392,8 @@ void run_mesh_lanes(Pass pass, int begin, int end)
 {
     using K = SolverKernels;
     switch (pass) {
-        case Pass::mesh_springs: return springs_of_groups(pass, begin, end);
-        case Pass::mesh_fold: return rows<&K::fold_lanes>(pass, begin, end, level.edges);
+        case Pass::mesh_springs: return springs_not_folding(begin, end);
+        case Pass::mesh_fold: return springs_folding(begin, end);
         case Pass::mesh_gather: return nodes<&K::gather_lanes>(pass, begin, end);
         case Pass::mesh_coarsen_couplings:
             return rows<&K::coarsen_couplings_lanes>(pass, begin, end, level.edges);

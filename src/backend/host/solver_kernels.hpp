@@ -279,6 +279,7 @@ struct SolverKernels {
     }
 
     bool is_last_look() const { return detail_ == last_look; }
+    bool is_polish_look() const { return detail_ == polish_look; }
     bool is_cloth() const { return is_cloth_; }
     bool is_acad() const { return constants.is_acad; }
     bool acad_has_memory() const { return constants.acad_has_memory; }
