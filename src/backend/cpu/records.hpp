@@ -290,6 +290,9 @@ struct Records<Pack<W>> {
     template <int stride>
     static PLIANT_INLINE void store(float* records, const Vector& a)
     {
+        if constexpr (stride == 4)
+            return quads_in_a_row<W>({a.x, a.y, a.z, T(0.0f)},
+                                     [&](int k, const T& floats) { floats.store(records + W * k); });
         quads_from_vectors<W>(a, [&](int lane, const Quad& values) { put(records + stride * lane, values); });
     }
     /// `stride` floats from a place to the next.

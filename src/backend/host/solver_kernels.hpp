@@ -189,7 +189,8 @@ struct SolverKernels {
                 spread(c.compressed),
                 spread(c.damping),
                 spread(Number(0)),
-                spread(c.reach)};
+                spread(c.reach),
+                spread(c.kept)};
     }
     real sheet_rest(int k) const
     {

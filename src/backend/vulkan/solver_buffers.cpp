@@ -153,10 +153,12 @@ void SolverBuffers::set_constants(double step_length)
     block.tolerances[0] = c.linear_tolerance;
     block.tolerances[1] = c.newton_tolerance;
     block.tolerances[2] = c.enough_iterations;
+    block.tolerances[3] = 1;
     for (std::size_t k = 0; k < spring_class_count; ++k) {
         block.softest[k] = c.softest[k];
         block.compliance[k] = c.compliance[k];
         block.remembers[k] = c.remembers[k] ? 1 : 0;
+        if (c.remembers[k]) block.tolerances[3] = c.curves[k].kept;
         block.remembers[3] |= block.remembers[k];
     }
     block.softest[2] = c.softest_held;  // no bend spring remembers

@@ -25,7 +25,8 @@ layout(set = 0, binding = 18, std140) uniform Solver
     vec4 curve_damping;      // N/m by class; w: m, polish_reach
     vec4 curve_reach;        // by class; w: acad_reach
     vec4 relaxations[2];
-    vec4 tolerances;         // of the linear solve, of Newton's method, and its iterations
+    vec4 tolerances;         // of the linear solve, of Newton's method, and its iterations; w: LimitCurve::kept of
+                             // limits that remember
     vec4 softest;            // N/m, of limits that remember: by class with their compliance; z: that hold a node of a
                              // mesh; w: without compliance
     vec4 compliance;         // m/N, by class; z: N/m, as softest.z without compliance; w: N/m, the stiffest limit, too
@@ -136,7 +137,8 @@ bool sheet_has(int k) { return solver.has[sheet_class(k)]; }
 LimitCurve class_curve(int k)
 {
     vec4 c = solver.curves[k];
-    return LimitCurve(solver.curve_kinds[k], c.x, c.y, c.z, c.w, solver.curve_damping[k], 0.0f, solver.curve_reach[k]);
+    return LimitCurve(solver.curve_kinds[k], c.x, c.y, c.z, c.w, solver.curve_damping[k], 0.0f, solver.curve_reach[k],
+                      solver.remembers[k] ? solver.tolerances.w : 1.0f);
 }
 LimitCurve sheet_curve(int k) { return class_curve(sheet_class(k)); }
 real sheet_rest(int k)
