@@ -280,9 +280,9 @@ Scene hung_shirt(std::uint32_t squares)
     return scene;
 }
 
-// What falls for half a second is where steps that are solved to the end have it, to the root of the mean square. At
-// these sizes that is no chance: moved by 1e-6 m, nodes of a solved run part by 0.01 cm. With all of its stiffness along slack
-// springs in Newton's matrix the disc is 4 cm off, and the T-shirt 8.
+// What falls for half a second is where steps that are solved to the end have it, to the root of the mean
+// square. At these sizes that is no chance: moved by 1e-6 m, nodes of a solved run part by 0.01 cm. With all
+// of its stiffness along slack springs in Newton's matrix the disc is 4 cm off, and the T-shirt 8.
 TEST(MeshHierarchy, FallsAsStepsThatAreSolvedToTheEnd)
 {
     const struct {

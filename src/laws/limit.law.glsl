@@ -19,6 +19,13 @@ struct LimitCurve
     real kept;        // the part of K that stays in the Hessian where the limit is slack
 };
 
+// Slack by less than this part of its length a limit counts as taut: what rests at its length does so whatever rounding
+// makes of it.
+LAW real kept_of_limit(LimitCurve curve, real beyond_limit, real rest_length)
+{
+    return choose(beyond_limit + rest_length * real(7.62939453125e-6f) > 0.0f, real(1.0f), curve.kept);
+}
+
 // What a spring does at its length: on node i the force is `force` n, n = (x_j - x_i) / l.
 struct SpringState
 {
@@ -43,7 +50,8 @@ LAW SpringState limited_spring(LimitCurve curve, real length2, real inverse_leng
     state.force = curve.below * extension + state.multiplier;
     real taut = extension + curve.slip;
     mask near = largest(taut, choose(curve.compressed > 0.0f, real(0.0f) - taut, taut)) > curve.reach * rest_length;
-    real kept = choose(largest(over, under) > 0.0f, real(1.0f), curve.kept);
+    real farther = largest(taut, choose(curve.compressed > 0.0f, real(0.0f) - taut, taut)) - slack;
+    real kept = kept_of_limit(curve, farther, rest_length);
     state.along = curve.below + choose(near, largest(curve.beyond, curve.compressed) * kept, real(0.0f));
     state.across = largest(state.force * inverse_length, real(0.0f));
     state.energy = 0.5f * (curve.below * extension * extension + curve.beyond * over * over +
@@ -66,11 +74,12 @@ LAW SpringState plain_spring(LimitCurve curve, real length2, real inverse_length
 
 LAW SpringState taut_spring(LimitCurve curve, real length2, real inverse_length, real rest_length)
 {
-    real over = largest(length2 * inverse_length - rest_length + curve.slip, real(0.0f));
+    real taut = length2 * inverse_length - rest_length + curve.slip;
+    real over = largest(taut, real(0.0f));
     SpringState state;
     state.multiplier = curve.beyond * over;
     state.force = state.multiplier;
-    state.along = curve.beyond * choose(over > 0.0f, real(1.0f), curve.kept);
+    state.along = curve.beyond * kept_of_limit(curve, taut, rest_length);
     state.across = state.force * inverse_length;
     state.energy = 0.5f * state.force * over;
     return state;

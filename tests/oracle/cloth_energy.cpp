@@ -44,10 +44,16 @@ struct Curve {
         return e > limit * rest || (compressed > 0 && -e > limit * rest);
     }
     /// "A slack spring keeps its stiffness along its direction": all of it, of limits of a mesh that remember
-    /// 0.3, and where it has a stiffness below its limit none.
+    /// 0.3 if it is slack by more than 2^-17, and where it has a stiffness below its limit none.
     double kept(double length) const
     {
-        return acts(length) || (below > 0 && limit > 0) ? 0 : kept_part * std::max(beyond, compressed);
+        return acts(length) || (below > 0 && limit > 0) ? 0
+                                                        : part_kept(length) * std::max(beyond, compressed);
+    }
+    double part_kept(double length) const
+    {
+        const double e = length - rest, farther = compressed > 0 ? std::abs(e) : e;
+        return farther - limit * rest > -0x1p-17 * rest ? 1 : kept_part;
     }
 };
 

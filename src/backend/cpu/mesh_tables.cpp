@@ -153,17 +153,18 @@ void MeshTables::add_springs(MeshLanes& of, const SolverLevel& level)
     of.held = springs_by_node(level.held_start);
     of.loose = springs_by_node(level.loose_start);
     if (level.folds())  // without the spring itself, which comes first
-        of.folds = make_table(
-                       level.loose,
-                       [&](std::int32_t edge, Row& row) {
-                           for_each_pair(level.fold_start, edge, [&](std::int32_t source, std::int32_t weight) {
-                               if (source != edge) row.push_back({2 * source, std::bit_cast<float>(weight)});
-                           });
-                       },
-                       [&](std::int32_t) {
-                           return Entry{2 * empty_block(level), nothing};
-                       })
-                       .lanes;
+        of.folds =
+            make_table(
+                level.loose,
+                [&](std::int32_t edge, Row& row) {
+                    for_each_pair(level.fold_start, edge, [&](std::int32_t source, std::int32_t weight) {
+                        if (source != edge) row.push_back({2 * source, std::bit_cast<float>(weight)});
+                    });
+                },
+                [&](std::int32_t) {
+                    return Entry{2 * empty_block(level), nothing};
+                })
+                .lanes;
     const auto size = static_cast<std::size_t>(whole_slices(level.edges));
     std::vector<std::int32_t> ends[2] = {std::vector<std::int32_t>(size), std::vector<std::int32_t>(size)};
     std::vector<float> classes(size);

@@ -85,7 +85,8 @@ template <int W>
 struct TwoQuadPacks {
     QuadPacks<W> first, second;
 };
-/// f(lane) and g(lane) are quads of a lane, by turns: what a lane's place is made of is in few registers then.
+/// f(lane) and g(lane) are quads of a lane, by turns: what a lane's place is made of is in few registers
+/// then.
 template <int W, class First, class Second>
 PLIANT_INLINE TwoQuadPacks<W> packs_from_two_quads(const First& f, const Second& g)
 {

@@ -27,9 +27,9 @@ struct MeshLanes {
     LaneTable neighbours;
     const std::int32_t* neighbour_edges = nullptr;  ///< by entry: twice the edge's number
     float* couplings = nullptr;                     ///< by row: 6 numbers of 16 lanes, N/m
-    LaneTable held, loose;                          ///< of the cloth: places are twice edges, weights as above
-    float* vectors = nullptr;                       ///< records of a vector that neighbours are asked for
-    float* states = nullptr;                        ///< of the cloth: the same
+    LaneTable held, loose;     ///< of the cloth: places are twice edges, weights as above
+    float* vectors = nullptr;  ///< records of a vector that neighbours are asked for
+    float* states = nullptr;   ///< of the cloth: the same
     // Of edges of the cloth: records of their ends, in floats, and the class of springs.
     const std::int32_t *first_end = nullptr, *second_end = nullptr;
     const float* spring_class = nullptr;
@@ -41,7 +41,8 @@ struct MeshLanes {
     /// Of edges, in an order of their own, source_edges; places are twice blocks of the finer one.
     LaneTable sources;
     const std::int32_t* source_edges = nullptr;
-    LaneTable folds;  ///< of edges of the cloth, what is folded onto them; places are twice blocks of the level
+    LaneTable
+        folds;  ///< of edges of the cloth, what is folded onto them; places are twice blocks of the level
 };
 
 /// Passes of meshes that find their neighbours in records, which must be made before.

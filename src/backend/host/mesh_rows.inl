@@ -187,13 +187,15 @@ KERNEL static SpringState chosen(mask m, SpringState a, SpringState b)
             choose(m, a.energy, b.energy), choose(m, a.multiplier, b.multiplier)};
 }
 /// Where loose springs are folded, the springs before them are computed in mesh_fold, which then has their
-/// blocks at hand. A group of both is in mesh_springs; so is all that is asked of them where nothing is folded.
+/// blocks at hand. A group of both is in mesh_springs; so is all that is asked of them where nothing is
+/// folded.
 int folding_groups() const { return level.folds() ? level.loose / sum_columns : 0; }
 /// Groups [first, end) for the part [begin, finish) of those that the pass is divided into.
 template <class Function>
 void for_part(int first, int end, int begin, int finish, const Function& function) const
 {
     const std::int64_t all = sum_groups(level.edges), count = end - first;
+    if (all == 0) return;
     function(first + static_cast<int>(count * begin / all), first + static_cast<int>(count * finish / all));
 }
 template <auto kernel>
@@ -240,7 +242,8 @@ KERNEL void folded_springs_lanes(const SpringGroup& group, int first, int e)
 KERNEL void fold_lanes(int e)
 {
     std::int32_t own[Lanes<T>::count];
-    for (int lane = 0; lane < Lanes<T>::count; ++lane) own[lane] = 2 * (e + lane < level.loose ? e + lane : e);
+    for (int lane = 0; lane < Lanes<T>::count; ++lane)
+        own[lane] = 2 * (e + lane < level.loose ? e + lane : e);
     store_blocks_in_a_row(with_folds(blocks_at(level, own), e), lanes_left(e, level.loose), e);
 }
 
