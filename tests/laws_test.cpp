@@ -119,12 +119,12 @@ TEST(Spring, BendingIsASpringOfNoLength)
 // --- springs with limits ---
 
 const D::LimitCurve limit_curves[] = {
-    {0, 50, 0.02, 4000, 4000, 0, 0, 0.02},      // a stiffness below the limit, resisting both ways beyond it
-    {0, 0, 0.01, 4000, 0, 0, 0, -1},            // tension alone
-    {1, 70, 0, 0, 0, 0, 0, 0},                  // a plain spring
-    {2, 0, 0, 4000, 0, 0, 0, -1},               // a thread that does not give
-    {0, 50, 0.02, 4000, 4000, 0, 0.004, 0.02},  // those that remember a force
-    {2, 0, 0, 4000, 0, 0, 0.004, -1},
+    {0, 50, 0.02, 4000, 4000, 0, 0, 0.02, 1},  // a stiffness below the limit, resisting both ways beyond it
+    {0, 0, 0.01, 4000, 0, 0, 0, -1, 0.3},      // tension alone
+    {1, 70, 0, 0, 0, 0, 0, 0, 1},              // a plain spring
+    {2, 0, 0, 4000, 0, 0, 0, -1, 1},           // a thread that does not give
+    {0, 50, 0.02, 4000, 4000, 0, 0.004, 0.02, 1},  // those that remember a force
+    {2, 0, 0, 4000, 0, 0, 0.004, -1, 0.3},
 };
 
 TEST(Limit, ForceIsTheSlopeOfTheEnergyAndMultiplierWhatTheLimitAdds)
@@ -161,11 +161,24 @@ TEST(Limit, KindsAreTheGeneralLawWhereTheRestOfItIsZero)
         }
 }
 
+TEST(Limit, KeepsAPartOfItsStiffnessInTheHessianWhereItIsSlack)
+{
+    for (const int kind : {0, 2}) {
+        const D::LimitCurve curve{kind, 0, 0, 4000, 0, 0, 0.004, -1, 0.3};
+        const auto along = [&](double l) { return D::spring_state(curve, l * l, 1 / l, 0.5).along; };
+        EXPECT_DOUBLE_EQ(along(0.497), 4000) << kind;  // 4 mm are remembered
+        EXPECT_DOUBLE_EQ(along(0.496 - 3e-6), 4000) << kind;
+        EXPECT_DOUBLE_EQ(along(0.496 - 5e-6), 1200) << kind;
+        EXPECT_DOUBLE_EQ(along(0.495), 1200) << kind;
+        EXPECT_DOUBLE_EQ(along(0.3), 1200) << kind;
+    }
+}
+
 TEST(Limit, ThatRemembersItsForceHasItsCompliance)
 {
     // A weight hangs on a thread, and every step ends where the force of the limit is the weight.
     constexpr double rest = 0.5, weight = 3, softest = 100, stiffest = 2000, compliance = 1e-4;
-    D::LimitCurve curve{2, 0, 0, softest / (1 + softest * compliance), 0, 0, 0, -1};
+    D::LimitCurve curve{2, 0, 0, softest / (1 + softest * compliance), 0, 0, 0, -1, 1};
     double length = 0;
     for (int step = 0; step < 40; ++step) {
         length = rest + weight / curve.beyond - curve.slip;

@@ -127,6 +127,9 @@ public:
     /// a twenty-fifth of a spring, which stretches one by 0.08 %, and both its nodes by 0.3 %; sheets have no
     /// bound.
     double polish_reach() const { return is_sheet() ? 1e9 : 0.04 * length_across / springs_across; }
+    /// The part of its stiffness that a slack limit which remembers keeps in Newton's matrix. On a mesh half
+    /// of them are slack, and hold up what should fall; a sheet takes more iterations with less than all.
+    double kept_when_slack() const { return is_sheet() ? 1 : 0.3; }
     double held_softest_limit(double step_length) const  ///< N/m, with the compliance
     {
         const double softest = held_limit * softest_limit(step_length);

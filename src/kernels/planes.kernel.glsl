@@ -187,3 +187,5 @@ const int sum_pushing = 5;          // unilateral constraints that push
 
 // A detail of sheet_gather: the last look of a step, for the energy alone.
 const int detail_last_look = 1;
+// One of mesh_gather that a polish follows: forces and diagonals are asked for, and no couplings.
+const int detail_polish_look = 2;

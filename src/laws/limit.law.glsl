@@ -16,7 +16,15 @@ struct LimitCurve
     real damping;     // c / dt, N/m: resists the change of length during the step
     real slip;        // m: the limit acts as if the spring were this much longer, see renewed_limit
     real reach;       // the stretch from which on K is in the Hessian; -1: always
+    real kept;        // the part of K that stays in the Hessian where the limit is slack
 };
+
+// Slack by less than this part of its length a limit counts as taut: what rests at its length does so whatever rounding
+// makes of it.
+LAW real kept_of_limit(LimitCurve curve, real beyond_limit, real rest_length)
+{
+    return choose(beyond_limit + rest_length * real(7.62939453125e-6f) > 0.0f, real(1.0f), curve.kept);
+}
 
 // What a spring does at its length: on node i the force is `force` n, n = (x_j - x_i) / l.
 struct SpringState
@@ -28,8 +36,8 @@ struct SpringState
     real multiplier;  // N, what the limit adds to the force of the stiffness below it
 };
 
-// The Hessian is the one that Newton's method wants, not the exact one: a slack thread keeps its stiffness K along n,
-// so that it is taut before it is overstretched, and the stiffness across n, f / l, is never negative. A spring that has
+// The Hessian is the one that Newton's method wants, not the exact one: a slack thread keeps a part of its stiffness K along
+// n, so that it is taut before it is overstretched, and the stiffness across n, f / l, is never negative. A spring that has
 // a stiffness below its limit has K from its limit on alone: k has to be free to shorten it.
 LAW SpringState limited_spring(LimitCurve curve, real length2, real inverse_length, real rest_length)
 {
@@ -42,7 +50,9 @@ LAW SpringState limited_spring(LimitCurve curve, real length2, real inverse_leng
     state.force = curve.below * extension + state.multiplier;
     real taut = extension + curve.slip;
     mask near = largest(taut, choose(curve.compressed > 0.0f, real(0.0f) - taut, taut)) > curve.reach * rest_length;
-    state.along = curve.below + choose(near, largest(curve.beyond, curve.compressed), real(0.0f));
+    real farther = largest(taut, choose(curve.compressed > 0.0f, real(0.0f) - taut, taut)) - slack;
+    real kept = kept_of_limit(curve, farther, rest_length);
+    state.along = curve.below + choose(near, largest(curve.beyond, curve.compressed) * kept, real(0.0f));
     state.across = largest(state.force * inverse_length, real(0.0f));
     state.energy = 0.5f * (curve.below * extension * extension + curve.beyond * over * over +
                            curve.compressed * under * under);
@@ -64,11 +74,12 @@ LAW SpringState plain_spring(LimitCurve curve, real length2, real inverse_length
 
 LAW SpringState taut_spring(LimitCurve curve, real length2, real inverse_length, real rest_length)
 {
-    real over = largest(length2 * inverse_length - rest_length + curve.slip, real(0.0f));
+    real taut = length2 * inverse_length - rest_length + curve.slip;
+    real over = largest(taut, real(0.0f));
     SpringState state;
     state.multiplier = curve.beyond * over;
     state.force = state.multiplier;
-    state.along = curve.beyond;
+    state.along = curve.beyond * kept_of_limit(curve, taut, rest_length);
     state.across = state.force * inverse_length;
     state.energy = 0.5f * state.force * over;
     return state;

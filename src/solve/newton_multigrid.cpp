@@ -116,7 +116,7 @@ private:
     {
         const int times = on_mesh_ ? polishes_of_mesh : 1;
         for (int k = 0; k < times; ++k) {
-            if (k > 0) evaluate(Guard::none);
+            if (k > 0) evaluate(Guard::none, detail_polish_look);
             add(Pass::newton_polish);
         }
     }

@@ -44,7 +44,8 @@ enum class HostLoop {
     own_rows,       ///< by a loop of its own, NAME_rows (backend/host)
     lanes,          ///< of meshes: packs by NAME_lanes (backend/host/mesh_rows.inl)
     records,        ///< the same; it finds neighbours in records, which are made before
-    spring_groups,  ///< the same, groups of springs by sweeps
+    groups,         ///< of meshes: packs by a loop of its own, NAME_groups
+    record_groups,  ///< the same, from records
 };
 
 /// What passes read and write.

@@ -30,6 +30,7 @@ Matrix folded(const Block& b, bool first, bool second)
 /// The law "limited spring":  E = k e^2 / 2 + K max(0, e - s l0)^2 / 2 + K' max(0, -e - s l0)^2 / 2
 struct Curve {
     double below = 0, limit = 0, beyond = 0, compressed = 0, rest = 0;
+    double kept_part = 1;
 
     double energy(long double length) const
     {
@@ -42,11 +43,17 @@ struct Curve {
         const double e = length - rest;
         return e > limit * rest || (compressed > 0 && -e > limit * rest);
     }
-    /// "A slack spring keeps its stiffness along its direction": all of it, or, where it has a stiffness
-    /// below its limit, none.
+    /// "A slack spring keeps its stiffness along its direction": all of it, of limits of a mesh that remember
+    /// 0.3 if it is slack by more than 2^-17, and where it has a stiffness below its limit none.
     double kept(double length) const
     {
-        return acts(length) || (below > 0 && limit > 0) ? 0 : std::max(beyond, compressed);
+        return acts(length) || (below > 0 && limit > 0) ? 0
+                                                        : part_kept(length) * std::max(beyond, compressed);
+    }
+    double part_kept(double length) const
+    {
+        const double e = length - rest, farther = compressed > 0 ? std::abs(e) : e;
+        return farther - limit * rest > -0x1p-17 * rest ? 1 : kept_part;
     }
 };
 
@@ -116,6 +123,7 @@ void ImplicitStep::add_spring(std::size_t spring_class, int i, int j, const std:
         const double softest = input_.softest * (holds ? 4 : 1);
         const double soft = spring_class != bend && softest > 0 ? 1 / softest : 0;
         curve.beyond = 1 / (given.compliance + soft);
+        if (soft > 0 && !input_.triangles.empty()) curve.kept_part = 0.3;
         if (input_.scene.newton_multigrid.resists == Resists::both) curve.compressed = curve.beyond;
     } else {
         curve.below = given.stiffness;

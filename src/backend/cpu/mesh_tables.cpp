@@ -19,6 +19,9 @@ std::int32_t whole_slices(std::int32_t count) { return (count + lanes - 1) / lan
 /// The block of a level that couples nothing (Hierarchy::append_mesh_level).
 std::int32_t empty_block(const SolverLevel& level) { return level.edges + level.columns; }
 
+/// Which end of its spring to a neighbour a node is: 1 the first, -1 the second.
+float side_of(std::int32_t node, std::int32_t neighbour) { return neighbour < node ? -1.0f : 1.0f; }
+
 }  // namespace
 
 const std::int32_t* MeshTables::keep(std::vector<std::int32_t> integers)
@@ -111,11 +114,11 @@ void MeshTables::add_nodes(MeshLanes& of, const SolverLevel& level)
         [&](std::int32_t node, Row& row) {
             for_each_pair(level.row_start, node, [&](std::int32_t other, std::int32_t edge) {
                 const std::int32_t neighbour = other - first;
-                row.push_back({MeshLanes::vector_size * neighbour, 0, 2 * edge + (neighbour < node ? 1 : 0)});
+                row.push_back({MeshLanes::vector_size * neighbour, side_of(node, neighbour), 2 * edge});
             });
         },
         [&](std::int32_t node) {
-            return Entry{MeshLanes::vector_size * node, 0, 2 * empty_block(level)};
+            return Entry{MeshLanes::vector_size * node, 1, 2 * empty_block(level)};
         });
     of.neighbours = table.lanes;
     of.neighbour_edges = table.edges;
@@ -139,15 +142,29 @@ void MeshTables::add_springs(MeshLanes& of, const SolverLevel& level)
                    level.columns,
                    [&](std::int32_t node, Row& row) {
                        for_each_pair(table_start, node, [&](std::int32_t other, std::int32_t edge) {
-                           row.push_back({2 * edge + (other - first < node ? 1 : 0)});
+                           row.push_back({2 * edge, side_of(node, other - first)});
                        });
                    },
-                   [&](std::int32_t) { return Entry{2 * empty_block(level)}; })
+                   [&](std::int32_t) {
+                       return Entry{2 * empty_block(level), 1};
+                   })
             .lanes;
     };
     of.held = springs_by_node(level.held_start);
     of.loose = springs_by_node(level.loose_start);
-    if (level.folds()) of.folds = weighted(level.loose, level.fold_start, {}, 0, 1, empty_block(level));
+    if (level.folds())  // without the spring itself, which comes first
+        of.folds =
+            make_table(
+                level.loose,
+                [&](std::int32_t edge, Row& row) {
+                    for_each_pair(level.fold_start, edge, [&](std::int32_t source, std::int32_t weight) {
+                        if (source != edge) row.push_back({2 * source, std::bit_cast<float>(weight)});
+                    });
+                },
+                [&](std::int32_t) {
+                    return Entry{2 * empty_block(level), nothing};
+                })
+                .lanes;
     const auto size = static_cast<std::size_t>(whole_slices(level.edges));
     std::vector<std::int32_t> ends[2] = {std::vector<std::int32_t>(size), std::vector<std::int32_t>(size)};
     std::vector<float> classes(size);
@@ -214,7 +231,7 @@ void MeshTables::add_transfers(MeshLanes& of, const SolverLevel& level, const So
                          [&](std::int32_t a, std::int32_t b) { return source_count(a) > source_count(b); });
         group = end;
     }
-    of.sources = weighted(level.edges, level.coupling_start, order, 0, 1, empty_block(finer));
+    of.sources = weighted(level.edges, level.coupling_start, order, 0, 2, 2 * empty_block(finer));
     order.resize(static_cast<std::size_t>(whole_slices(level.edges)));
     of.source_edges = keep(std::move(order));
 }

@@ -44,8 +44,16 @@ PLIANT_INLINE typename LaneTypes<W>::Floats every_fourth_quad(const Function& f)
     } else if constexpr (W == 8) {
         return two_quads(f(first), f(first + 4));
     } else {
+#if defined(__AVX512F__)
+        // From memory each is a load that goes to any port; of halves put together GCC makes shuffles.
+        __m512 quads = _mm512_castps128_ps512((__m128)f(first));
+        quads = _mm512_insertf32x4(quads, (__m128)f(first + 4), 1);
+        quads = _mm512_insertf32x4(quads, (__m128)f(first + 8), 2);
+        return (typename LaneTypes<W>::Floats)_mm512_insertf32x4(quads, (__m128)f(first + 12), 3);
+#else
         const auto low = two_quads(f(first), f(first + 4)), high = two_quads(f(first + 8), f(first + 12));
         return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+#endif
     }
 }
 
@@ -54,16 +62,74 @@ template <int W>
 struct QuadPacks {
     Pack<W> x, y, z, w;
 };
+/// Of quads of lanes, where r0 has those of every fourth lane from 0 on, r1 from 1 on ...
+template <int W, class Floats>
+PLIANT_INLINE QuadPacks<W> packs_of_rows(Floats r0, Floats r1, Floats r2, Floats r3)
+{
+    const auto xy01 = quads_of<W, 0, 4, 1, 5>(r0, r1), zw01 = quads_of<W, 2, 6, 3, 7>(r0, r1);
+    const auto xy23 = quads_of<W, 0, 4, 1, 5>(r2, r3), zw23 = quads_of<W, 2, 6, 3, 7>(r2, r3);
+    return {quads_of<W, 0, 1, 4, 5>(xy01, xy23), quads_of<W, 2, 3, 6, 7>(xy01, xy23),
+            quads_of<W, 0, 1, 4, 5>(zw01, zw23), quads_of<W, 2, 3, 6, 7>(zw01, zw23)};
+}
 /// f(lane) is the quad of a lane.
 template <int W, class Function>
 PLIANT_INLINE QuadPacks<W> packs_from_quads(const Function& f)
 {
     const auto r0 = every_fourth_quad<W, 0>(f), r1 = every_fourth_quad<W, 1>(f),
                r2 = every_fourth_quad<W, 2>(f), r3 = every_fourth_quad<W, 3>(f);
-    const auto xy01 = quads_of<W, 0, 4, 1, 5>(r0, r1), zw01 = quads_of<W, 2, 6, 3, 7>(r0, r1);
-    const auto xy23 = quads_of<W, 0, 4, 1, 5>(r2, r3), zw23 = quads_of<W, 2, 6, 3, 7>(r2, r3);
-    return {quads_of<W, 0, 1, 4, 5>(xy01, xy23), quads_of<W, 2, 3, 6, 7>(xy01, xy23),
-            quads_of<W, 0, 1, 4, 5>(zw01, zw23), quads_of<W, 2, 3, 6, 7>(zw01, zw23)};
+    return packs_of_rows<W>(r0, r1, r2, r3);
+}
+
+/// Two quads of each lane.
+template <int W>
+struct TwoQuadPacks {
+    QuadPacks<W> first, second;
+};
+/// f(lane) and g(lane) are quads of a lane, by turns: what a lane's place is made of is in few registers
+/// then.
+template <int W, class First, class Second>
+PLIANT_INLINE TwoQuadPacks<W> packs_from_two_quads(const First& f, const Second& g)
+{
+    const auto r0 = every_fourth_quad<W, 0>(f), s0 = every_fourth_quad<W, 0>(g);
+    const auto r1 = every_fourth_quad<W, 1>(f), s1 = every_fourth_quad<W, 1>(g);
+    const auto r2 = every_fourth_quad<W, 2>(f), s2 = every_fourth_quad<W, 2>(g);
+    const auto r3 = every_fourth_quad<W, 3>(f), s3 = every_fourth_quad<W, 3>(g);
+    return {packs_of_rows<W>(r0, r1, r2, r3), packs_of_rows<W>(s0, s1, s2, s3)};
+}
+
+/// Eight floats of each lane that lie together: f(lane) is the first four and, behind them, the others.
+template <int W, int first>
+struct QuadsOfOctets {
+    static consteval int of(int k) { return (k / 4 % 2 * 8) + (k / 8 * W) + 4 * first + k % 4; }
+};
+template <int W, int first, class Function>
+PLIANT_INLINE auto every_fourth_octet(const Function& f)
+{
+    using Floats = typename LaneTypes<W>::Floats;
+    struct {
+        Floats quads, others;
+    } rows;
+    if constexpr (W == 8) {
+        const Floats a = f(first), b = f(first + 4);
+        rows.quads = __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11);
+        rows.others = __builtin_shufflevector(a, b, 4, 5, 6, 7, 12, 13, 14, 15);
+    } else {
+        const auto both = [](auto a, auto b) {
+            return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+        };
+        const Floats low = both(f(first), f(first + 4)), high = both(f(first + 8), f(first + 12));
+        rows.quads = shuffled<W, QuadsOfOctets<W, 0>>(low, high);
+        rows.others = shuffled<W, QuadsOfOctets<W, 1>>(low, high);
+    }
+    return rows;
+}
+template <int W, class Function>
+PLIANT_INLINE TwoQuadPacks<W> packs_from_octets(const Function& f)
+{
+    const auto r0 = every_fourth_octet<W, 0>(f), r1 = every_fourth_octet<W, 1>(f),
+               r2 = every_fourth_octet<W, 2>(f), r3 = every_fourth_octet<W, 3>(f);
+    return {packs_of_rows<W>(r0.quads, r1.quads, r2.quads, r3.quads),
+            packs_of_rows<W>(r0.others, r1.others, r2.others, r3.others)};
 }
 /// f(lane) is the vector of a lane, as a quad.
 template <int W, class Function>
@@ -73,17 +139,26 @@ PLIANT_INLINE Vector3<Pack<W>> vectors_from_quads(const Function& f)
     return {packs.x, packs.y, packs.z};
 }
 
-/// Leaves a lane's quad with f(lane, quad).
-template <int W, class Function>
-PLIANT_INLINE void quads_from_packs(const QuadPacks<W>& a, const Function& f)
+/// The quads of lanes as packs_of_rows has them.
+template <int W>
+struct QuadRows {
+    typename LaneTypes<W>::Floats rows[4];
+};
+template <int W>
+PLIANT_INLINE QuadRows<W> rows_of_packs(const QuadPacks<W>& a)
 {
     const auto xy01 = quads_of<W, 0, 4, 1, 5>(a.x.lanes, a.y.lanes),
                xy23 = quads_of<W, 2, 6, 3, 7>(a.x.lanes, a.y.lanes),
                zw01 = quads_of<W, 0, 4, 1, 5>(a.z.lanes, a.w.lanes),
                zw23 = quads_of<W, 2, 6, 3, 7>(a.z.lanes, a.w.lanes);
-    const typename LaneTypes<W>::Floats rows[4] = {
-        quads_of<W, 0, 1, 4, 5>(xy01, zw01), quads_of<W, 2, 3, 6, 7>(xy01, zw01),
-        quads_of<W, 0, 1, 4, 5>(xy23, zw23), quads_of<W, 2, 3, 6, 7>(xy23, zw23)};
+    return {{quads_of<W, 0, 1, 4, 5>(xy01, zw01), quads_of<W, 2, 3, 6, 7>(xy01, zw01),
+             quads_of<W, 0, 1, 4, 5>(xy23, zw23), quads_of<W, 2, 3, 6, 7>(xy23, zw23)}};
+}
+/// Leaves a lane's quad with f(lane, quad).
+template <int W, class Function>
+PLIANT_INLINE void quads_from_packs(const QuadPacks<W>& a, const Function& f)
+{
+    const auto [rows] = rows_of_packs<W>(a);
     for (int k = 0; k < 4; ++k) {
         if constexpr (W == 4) f(k, rows[k]);
         if constexpr (W >= 8) {
@@ -96,10 +171,76 @@ PLIANT_INLINE void quads_from_packs(const QuadPacks<W>& a, const Function& f)
         }
     }
 }
+/// The quads of lanes one behind the other: f(k, floats) is left with the k-th W floats.
+template <int W>
+struct LowQuadsByTurns {
+    static consteval int of(int k) { return k / 4 % 2 * W + k / 8 * 4 + k % 4; }
+};
+template <int W>
+struct HighQuadsByTurns {
+    static consteval int of(int k) { return LowQuadsByTurns<W>::of(k) + W / 2; }
+};
+template <int W>
+struct LowHalves {
+    static consteval int of(int k) { return k < W / 2 ? k : k + W / 2; }
+};
+template <int W>
+struct HighHalves {
+    static consteval int of(int k) { return LowHalves<W>::of(k) + W / 2; }
+};
+template <int W, class Function>
+PLIANT_INLINE void quads_in_a_row(const QuadPacks<W>& a, const Function& f)
+{
+    const auto [rows] = rows_of_packs<W>(a);
+    if constexpr (W == 4) {
+        for (int k = 0; k < 4; ++k) f(k, rows[k]);
+    } else if constexpr (W == 8) {
+        for (int k = 0; k < 4; k += 2) {
+            f(k / 2, __builtin_shufflevector(rows[k], rows[k + 1], 0, 1, 2, 3, 8, 9, 10, 11));
+            f(2 + k / 2, __builtin_shufflevector(rows[k], rows[k + 1], 4, 5, 6, 7, 12, 13, 14, 15));
+        }
+    } else {
+        // Of every fourth lane by pairs, and then pairs of those.
+        const auto low01 = shuffled<W, LowQuadsByTurns<W>>(rows[0], rows[1]),
+                   low23 = shuffled<W, LowQuadsByTurns<W>>(rows[2], rows[3]),
+                   high01 = shuffled<W, HighQuadsByTurns<W>>(rows[0], rows[1]),
+                   high23 = shuffled<W, HighQuadsByTurns<W>>(rows[2], rows[3]);
+        f(0, shuffled<W, LowHalves<W>>(low01, low23));
+        f(1, shuffled<W, HighHalves<W>>(low01, low23));
+        f(2, shuffled<W, LowHalves<W>>(high01, high23));
+        f(3, shuffled<W, HighHalves<W>>(high01, high23));
+    }
+}
+
 template <int W, class Function>
 PLIANT_INLINE void quads_from_vectors(const Vector3<Pack<W>>& a, const Function& f)
 {
     quads_from_packs<W>({a.x, a.y, a.z, Pack<W>(0.0f)}, f);
+}
+
+/// Of 16 lanes, pairs of numbers a, b and c of 8 lanes, one lane behind the other: the k-th 16 floats, first
+/// without c.
+template <int part>
+struct PairsInARow {
+    static consteval int pair(int k) { return 8 * part + k / 2; }
+    static consteval int of(int k)
+    {
+        const int from = pair(k) % 3, place = 2 * (pair(k) / 3) + k % 2;
+        return from == 0 ? place : from == 1 ? 16 + place : 0;
+    }
+};
+template <int part>
+struct ThirdPairsInARow {
+    static consteval int of(int k)
+    {
+        using Pairs = PairsInARow<part>;
+        return Pairs::pair(k) % 3 == 2 ? 16 + 2 * (Pairs::pair(k) / 3) + k % 2 : k;
+    }
+};
+template <int part, class Floats>
+PLIANT_INLINE Floats pairs_in_a_row(Floats a, Floats b, Floats c)
+{
+    return shuffled<16, ThirdPairsInARow<part>>(shuffled<16, PairsInARow<part>>(a, b), c);
 }
 
 }  // namespace PLIANT_PACKS
@@ -115,27 +256,52 @@ struct Records<Pack<W>> {
         return a;
     }
     static PLIANT_SMALL void put(float* p, const Quad& a) { __builtin_memcpy(p, &a, sizeof a); }
+    static PLIANT_SMALL auto octet(const float* p)
+    {
+        typename LaneTypes<8>::Floats a;
+        __builtin_memcpy(&a, p, sizeof a);
+        return a;
+    }
+    using Distance = std::ptrdiff_t;
 
     template <int stride>
     static PLIANT_INLINE Vector vectors(const float* records, const std::int32_t* place)
     {
         return vectors_from_quads<W>([&](int lane) { return quad(records + stride * place[lane]); });
     }
-    static PLIANT_INLINE Vector differences(const float* records, const std::int32_t* from,
-                                            const std::int32_t* to)
+    /// Of records of eight floats, what the first vector of `to` is beyond that of `from`, and the second.
+    struct TwoVectors {
+        Vector first, second;
+    };
+    static PLIANT_INLINE TwoVectors differences(const float* records, const std::int32_t* from,
+                                                const std::int32_t* to)
     {
-        return vectors_from_quads<W>(
-            [&](int lane) { return quad(records + to[lane]) - quad(records + from[lane]); });
+        TwoQuadPacks<W> packs;
+        if constexpr (W == 4) {
+            packs = packs_from_two_quads<W>(
+                [&](int lane) { return quad(records + to[lane]) - quad(records + from[lane]); },
+                [&](int lane) { return quad(records + to[lane] + 4) - quad(records + from[lane] + 4); });
+        } else {
+            packs = packs_from_octets<W>(
+                [&](int lane) { return octet(records + to[lane]) - octet(records + from[lane]); });
+        }
+        const QuadPacks<W>&a = packs.first, &b = packs.second;
+        return {{a.x, a.y, a.z}, {b.x, b.y, b.z}};
     }
     template <int stride>
     static PLIANT_INLINE void store(float* records, const Vector& a)
     {
+        if constexpr (stride == 4)
+            return quads_in_a_row<W>({a.x, a.y, a.z, T(0.0f)},
+                                     [&](int k, const T& floats) { floats.store(records + W * k); });
         quads_from_vectors<W>(a, [&](int lane, const Quad& values) { put(records + stride * lane, values); });
     }
-    static PLIANT_INLINE FourNumbers<T> fours(const float* records, const std::int32_t* twice)
+    /// `stride` floats from a place to the next.
+    template <int stride>
+    static PLIANT_INLINE FourNumbers<T> fours(const float* records, const std::int32_t* place)
     {
         const QuadPacks<W> packs =
-            packs_from_quads<W>([&](int lane) { return quad(records + 4 * (twice[lane] >> 1)); });
+            packs_from_quads<W>([&](int lane) { return quad(records + Distance{place[lane]} * stride); });
         return {packs.x, packs.y, packs.z, packs.w};
     }
     /// Calls put_lane(lane, quad) for the first `count` lanes.
@@ -149,16 +315,40 @@ struct Records<Pack<W>> {
     }
     static PLIANT_INLINE void store_fours(float* records, const FourNumbers<T>& a, int count)
     {
+        if (count >= W)
+            return quads_in_a_row<W>({a.x, a.y, a.z, a.w},
+                                     [&](int k, const T& floats) { floats.store(records + W * k); });
         store_some({a.x, a.y, a.z, a.w}, count,
                    [&](int lane, const Quad& values) { put(records + 4 * lane, values); });
     }
-    template <int shift>
+    template <int stride>
     static PLIANT_INLINE SixNumbers<T> sixes(const float* records, const std::int32_t* place)
     {
-        const auto first = [&](int lane) { return records + 6 * (place[lane] >> shift); };
-        const QuadPacks<W> low = packs_from_quads<W>([&](int lane) { return quad(first(lane)); });
-        const QuadPacks<W> high = packs_from_quads<W>([&](int lane) { return quad(first(lane) + 2); });
+        const auto first = [&](int lane) { return records + Distance{place[lane]} * stride; };
+        const auto [low, high] = packs_from_two_quads<W>([&](int lane) { return quad(first(lane)); },
+                                                         [&](int lane) { return quad(first(lane) + 2); });
         return {{low.x, low.y, low.z, low.w, high.z, high.w}};
+    }
+    /// Those of neighbouring lanes, one behind the other.
+    static PLIANT_INLINE void store_sixes_in_a_row(float* records, const SixNumbers<T>& a, int count)
+    {
+        if constexpr (W == 16)
+            if (count >= W) {
+                const T* n = a.numbers;
+                store_eight_sixes<0>(records, n);
+                return store_eight_sixes<W / 2>(records + 3 * W, n);
+            }
+        store_sixes(records, a, count, [](int lane) { return lane; });
+    }
+    template <int first>
+    static PLIANT_INLINE void store_eight_sixes(float* records, const T* n)
+    {
+        const auto a = lanes_by_turns<W, first>(n[0].lanes, n[1].lanes),
+                   b = lanes_by_turns<W, first>(n[2].lanes, n[3].lanes),
+                   c = lanes_by_turns<W, first>(n[4].lanes, n[5].lanes);
+        T(pairs_in_a_row<0>(a, b, c)).store(records);
+        T(pairs_in_a_row<1>(a, b, c)).store(records + W);
+        T(pairs_in_a_row<2>(a, b, c)).store(records + 2 * W);
     }
     template <class Place>
     static PLIANT_INLINE void store_sixes(float* records, const SixNumbers<T>& a, int count,
@@ -169,13 +359,6 @@ struct Records<Pack<W>> {
                    [&](int lane, const Quad& values) { put(records + 6 * place(lane), values); });
         store_some({n[2], n[3], n[4], n[5]}, count,
                    [&](int lane, const Quad& values) { put(records + 6 * place(lane) + 2, values); });
-    }
-    /// 1 where an integer is even, and -1 where it is odd.
-    static PLIANT_INLINE T signs(const std::int32_t* integers)
-    {
-        typename LaneTypes<W>::Bits bits;
-        __builtin_memcpy(&bits, integers, sizeof bits);
-        return reinterpret_cast<typename T::Lanes>(bits << 31 | 0x3f800000u);
     }
 };
 

@@ -22,13 +22,14 @@ struct LaneTable {
 struct MeshLanes {
     /// Floats of a vector in a record, and of the displacement of a node and where it started.
     static constexpr int vector_size = 4, state_size = 8;
-    /// Of nodes. Places are of records, in floats; a filled entry is the node itself, without a coupling.
+    /// Of nodes. Places are of records, in floats; a filled entry is the node itself, without a coupling. The
+    /// weight is 1 at an edge's first node and -1 at its second.
     LaneTable neighbours;
-    const std::int32_t* neighbour_edges = nullptr;  ///< by entry: 2 e, and 1 more at the edge's second node
+    const std::int32_t* neighbour_edges = nullptr;  ///< by entry: twice the edge's number
     float* couplings = nullptr;                     ///< by row: 6 numbers of 16 lanes, N/m
-    LaneTable held, loose;                          ///< of the cloth: places are as neighbour_edges
-    float* vectors = nullptr;                       ///< records of a vector that neighbours are asked for
-    float* states = nullptr;                        ///< of the cloth: the same
+    LaneTable held, loose;     ///< of the cloth: places are twice edges, weights as above
+    float* vectors = nullptr;  ///< records of a vector that neighbours are asked for
+    float* states = nullptr;   ///< of the cloth: the same
     // Of edges of the cloth: records of their ends, in floats, and the class of springs.
     const std::int32_t *first_end = nullptr, *second_end = nullptr;
     const float* spring_class = nullptr;
@@ -37,21 +38,23 @@ struct MeshLanes {
     // How this level comes from the finer one, by weights. A filled entry has the weight -0 and the number 0.
     LaneTable parents;   ///< of nodes of the finer one; places are of records, in floats
     LaneTable children;  ///< of nodes; places are nodes of the finer one
-    LaneTable
-        sources;  ///< of edges, in an order of their own, source_edges; places are blocks of the finer one
+    /// Of edges, in an order of their own, source_edges; places are twice blocks of the finer one.
+    LaneTable sources;
     const std::int32_t* source_edges = nullptr;
-    LaneTable folds;  ///< of edges of the cloth: places are blocks of the level
+    LaneTable
+        folds;  ///< of edges of the cloth, what is folded onto them; places are twice blocks of the level
 };
 
 /// Passes of meshes that find their neighbours in records, which must be made before.
 constexpr bool asks_for_records(Pass pass)
 {
-    return host_loop_of(pass) == HostLoop::records || host_loop_of(pass) == HostLoop::spring_groups;
+    return host_loop_of(pass) == HostLoop::records || host_loop_of(pass) == HostLoop::record_groups;
 }
 /// Passes of meshes that packs run.
 constexpr bool has_lanes(Pass pass)
 {
-    return asks_for_records(pass) || host_loop_of(pass) == HostLoop::lanes;
+    return asks_for_records(pass) || host_loop_of(pass) == HostLoop::lanes ||
+           host_loop_of(pass) == HostLoop::groups;
 }
 
 }  // namespace pliant

@@ -39,11 +39,16 @@ KERNEL static Symmetric symmetric_of(const SixNumbers<T>& a)
     const T* n = a.numbers;
     return {n[0], n[1], n[2], n[3], n[4], n[5]};
 }
-/// Blocks of a level, each at half of a number where `shift` is 1.
-template <int shift>
-KERNEL Symmetric blocks_at(const SolverLevel& of, const std::int32_t* place) const
+/// Blocks of a level, by twice their numbers.
+KERNEL Symmetric blocks_at(const SolverLevel& of, const std::int32_t* twice) const
 {
-    return symmetric_of(Record::template sixes<shift>(context.arena + of.edge_base, place));
+    return symmetric_of(Record::template sixes<3>(context.arena + of.edge_base, twice));
+}
+/// Of neighbouring blocks from `first` on.
+KERNEL void store_blocks_in_a_row(Symmetric a, int count, int first) const
+{
+    Record::store_sixes_in_a_row(context.arena + (level.edge_base + 6 * first),
+                                 {{a.xx, a.xy, a.xz, a.yy, a.yz, a.zz}}, count);
 }
 template <class Place>
 KERNEL void store_blocks(Symmetric a, int count, const Place& place) const
@@ -55,7 +60,7 @@ KERNEL void store_blocks(Symmetric a, int count, const Place& place) const
 KERNEL void store_row_sums(int o, Symmetric a)
 {
     const int first = mesh_node(o);
-    store_blocks(a, lanes_left(first, level.columns), [&](int lane) { return level.edges + first + lane; });
+    store_blocks_in_a_row(a, lanes_left(first, level.columns), level.edges + first);
     store6(plane_row_sum, o, a);
 }
 /// The couplings of nodes with their neighbours lie row by row: a stream for the product.
@@ -107,8 +112,8 @@ KERNEL void find_lengths(SpringGroup& group, int first, int last) const
     const Number* states = lanes().states;
     for (int k = 0; first + k < last; k += Lanes<T>::count) {
         const std::int32_t *i = lanes().first_end + first + k, *j = lanes().second_end + first + k;
-        const vec3 start = Record::differences(states, i, j);
-        const vec3 d = start + Record::differences(states + MeshLanes::vector_size, i, j);
+        const auto [start, moved] = Record::differences(states, i, j);
+        const vec3 d = start + moved;
         put3(group.start + k, sum_columns, start.x, start.y, start.z);
         put3(group.d + k, sum_columns, d.x, d.y, d.z);
         Lanes<T>::store(group.length2 + k, dot3(d, d));
@@ -140,9 +145,9 @@ bool knows_step(int o) const
 }
 
 /// Where classes are mixed in a group, the state by each is computed for all lanes.
-KERNEL void springs_lanes(const SpringGroup& group, int first, int e)
+KERNEL SpringShare spring_of_lanes(const SpringGroup& group, int first, int e)
 {
-    const int k = e - first, count = lanes_left(e, level.edges);
+    const int k = e - first;
     const vec3 start = three<&Lanes<T>::load>(group.start + k, sum_columns);
     const vec3 d = three<&Lanes<T>::load>(group.d + k, sum_columns);
     const real length2 = Lanes<T>::load(group.length2 + k),
@@ -159,42 +164,93 @@ KERNEL void springs_lanes(const SpringGroup& group, int first, int e)
     }
     vec3 damper = start;
     if (is_second_order() && has_damping()) damp_lanes(e, start, curve, damper);
-    SpringShare spring = share_of(state, curve.damping, start, d, damper, inverse_length, mesh_scale(e));
-    spring = with_bending(e, spring, d);
+    const SpringShare spring =
+        share_of(state, curve.damping, start, d, damper, inverse_length, mesh_scale(e));
+    return with_bending(e, spring, d);
+}
+KERNEL void leave_spring(int e, const SpringShare& spring, Symmetric block)
+{
+    const int count = lanes_left(e, level.edges);
     Record::store_fours(edge_at(edge_force, 4, e),
                         {spring.force.x, spring.force.y, spring.force.z, mesh_taut(spring)}, count);
-    store_blocks(spring.block, count, [&](int lane) { return e + lane; });
+    store_blocks_in_a_row(block, count, e);
     sums[0] = sums[0] + choose(Lanes<T>::first_lanes(count), spring.energy, real(0.0f));
+}
+KERNEL void springs_lanes(const SpringGroup& group, int first, int e)
+{
+    const SpringShare spring = spring_of_lanes(group, first, e);
+    leave_spring(e, spring, spring.block);
 }
 KERNEL static SpringState chosen(mask m, SpringState a, SpringState b)
 {
     return {choose(m, a.force, b.force), choose(m, a.along, b.along), choose(m, a.across, b.across),
             choose(m, a.energy, b.energy), choose(m, a.multiplier, b.multiplier)};
 }
-void mesh_springs_groups(Pass pass, int begin, int end)
+/// Where loose springs are folded, the springs before them are computed in mesh_fold, which then has their
+/// blocks at hand. A group of both is in mesh_springs; so is all that is asked of them where nothing is
+/// folded.
+int folding_groups() const { return level.folds() ? level.loose / sum_columns : 0; }
+/// Groups [first, end) for the part [begin, finish) of those that the pass is divided into.
+template <class Function>
+void for_part(int first, int end, int begin, int finish, const Function& function) const
 {
-    const SumSlots slots = sum_slots_of(pass);
+    const std::int64_t all = sum_groups(level.edges), count = end - first;
+    if (all == 0) return;
+    function(first + static_cast<int>(count * begin / all), first + static_cast<int>(count * finish / all));
+}
+template <auto kernel>
+void springs_of_groups(int begin, int end)
+{
+    const SumSlots slots = sum_slots_of(Pass::mesh_springs);
     SolverKernels self = *this;
     SpringGroup springs;
     for (int group = begin; group < end; ++group) {
         const int first = group * sum_columns;
         const int last = first + sum_columns < level.edges ? first + sum_columns : level.edges;
         self.find_lengths(springs, first, last);
-        self.summed(slots, group, first, last, [&](int e) { self.springs_lanes(springs, first, e); });
+        self.summed(slots, group, first, last, [&](int e) { (self.*kernel)(springs, first, e); });
     }
 }
-
-KERNEL void mesh_fold_lanes(int e)
+void mesh_springs_groups(Pass, int begin, int end)
 {
-    if (e >= level.loose) return;
-    store_blocks(sum_of_blocks(level, lanes().folds, e), lanes_left(e, level.loose),
-                 [&](int lane) { return e + lane; });
+    for_part(folding_groups(), sum_groups(level.edges), begin, end,
+             [&](int from, int to) { springs_of_groups<&SolverKernels::springs_lanes>(from, to); });
+}
+void mesh_fold_groups(Pass, int begin, int end)
+{
+    const int folding = folding_groups();
+    for_part(0, folding + 1, begin, end, [&](int from, int to) {
+        const int last = to < folding ? to : folding;
+        springs_of_groups<&SolverKernels::folded_springs_lanes>(from, last);
+        if (from <= folding && folding < to)
+            for (int e = folding * sum_columns; e < level.loose; e += Lanes<T>::count) fold_lanes(e);
+    });
 }
 
-/// The force of springs, and whether they are taut.
-KERNEL FourNumbers<T> force_at(const std::int32_t* place) const
+/// A spring's block with those that are folded onto it.
+KERNEL Symmetric with_folds(Symmetric own, int e)
 {
-    return Record::fours(edge_at(edge_force, 4, 0), place);
+    const Symmetric first = plus_scaled(symmetric_diagonal(real(0.0f)), own, real(1.0f));
+    return plus_blocks(first, level, lanes().folds, e);
+}
+KERNEL void folded_springs_lanes(const SpringGroup& group, int first, int e)
+{
+    const SpringShare spring = spring_of_lanes(group, first, e);
+    leave_spring(e, spring, with_folds(spring.block, e));
+}
+/// Of a group whose springs mesh_springs has left.
+KERNEL void fold_lanes(int e)
+{
+    std::int32_t own[Lanes<T>::count];
+    for (int lane = 0; lane < Lanes<T>::count; ++lane)
+        own[lane] = 2 * (e + lane < level.loose ? e + lane : e);
+    store_blocks_in_a_row(with_folds(blocks_at(level, own), e), lanes_left(e, level.loose), e);
+}
+
+/// The force of springs, by twice their numbers, and whether they are taut.
+KERNEL FourNumbers<T> force_at(const std::int32_t* twice) const
+{
+    return Record::template fours<2>(edge_at(edge_force, 4, 0), twice);
 }
 KERNEL void mesh_gather_lanes(int o)
 {
@@ -203,24 +259,25 @@ KERNEL void mesh_gather_lanes(int o)
     const LaneTable &held = lanes().held, &neighbours = lanes().neighbours;
     for (const int entry : entries_of(held, first)) {
         const FourNumbers<T> force = force_at(held.place + entry);
-        node = with_spring(node, {force.x, force.y, force.z}, blocks_at<1>(level, held.place + entry),
-                           Record::signs(held.place + entry));
+        node = with_spring(node, {force.x, force.y, force.z}, blocks_at(level, held.place + entry),
+                           Lanes<T>::load(held.weight + entry));
         node.taut = node.taut + force.w;
     }
-    store_row_sums(o, where_else_zero(node.mass > 0.0f, node.row_sum));
+    const bool is_multiplied = !is_polish_look();
+    if (is_multiplied) store_row_sums(o, where_else_zero(node.mass > 0.0f, node.row_sum));
     const LaneTable& loose = lanes().loose;
     for (const int entry : entries_of(loose, first)) {
         const FourNumbers<T> force = force_at(loose.place + entry);
-        node = with_force(node, {force.x, force.y, force.z}, Record::signs(loose.place + entry));
+        node = with_force(node, {force.x, force.y, force.z}, Lanes<T>::load(loose.weight + entry));
     }
     for (const int entry : entries_of(neighbours, first)) {
         const std::int32_t* place = lanes().neighbour_edges + entry;
         const FourNumbers<T> force = force_at(place);
-        const Symmetric block = blocks_at<1>(level, place);
-        const real side = Record::signs(place);
+        const Symmetric block = blocks_at(level, place);
+        const real side = Lanes<T>::load(neighbours.weight + entry);
         node = with_spring(node, {force.x, force.y, force.z}, block, side);
         node.taut = node.taut + choose(side > 0.0f, force.w, real(0.0f));
-        store_coupling(entry, block);
+        if (is_multiplied) store_coupling(entry, block);
     }
     leave_mesh_node(o, node);
 }
@@ -235,8 +292,8 @@ KERNEL void mesh_multiply_lanes(int e)
 {
     const std::int32_t *i = lanes().first_end + e, *j = lanes().second_end + e;
     const Number* states = lanes().states;
-    const vec3 d =
-        Record::differences(states, i, j) + Record::differences(states + MeshLanes::vector_size, i, j);
+    const auto [start, moved] = Record::differences(states, i, j);
+    const vec3 d = start + moved;
     const real spring_class = Lanes<T>::load(lanes().spring_class + e);
     const mask is_there = Lanes<T>::first_lanes(level.edges - e);
     const int only = lanes().class_of_group[e / sum_columns];
@@ -274,9 +331,12 @@ KERNEL void mesh_residual_lanes(int o) { leave_residual(o, lanes_product(source_
 
 KERNEL Symmetric sum_of_blocks(const SolverLevel& of, const LaneTable& table, int first)
 {
-    Symmetric a = symmetric_diagonal(real(0.0f));
+    return plus_blocks(symmetric_diagonal(real(0.0f)), of, table, first);
+}
+KERNEL Symmetric plus_blocks(Symmetric a, const SolverLevel& of, const LaneTable& table, int first)
+{
     for (const int entry : entries_of(table, first)) {
-        a = plus_scaled(a, blocks_at<0>(of, table.place + entry), Lanes<T>::load(table.weight + entry));
+        a = plus_scaled(a, blocks_at(of, table.place + entry), Lanes<T>::load(table.weight + entry));
     }
     return a;
 }
@@ -294,13 +354,13 @@ KERNEL void mesh_coarsen_nodes_lanes(int o)
     Symmetric row_sum = symmetric_diagonal(real(0.0f));
     for (const int entry : entries_of(children, first)) {
         row_sum =
-            plus_scaled(row_sum, symmetric_of(Record::template sixes<0>(row_sums, children.place + entry)),
+            plus_scaled(row_sum, symmetric_of(Record::template sixes<6>(row_sums, children.place + entry)),
                         Lanes<T>::load(children.weight + entry));
     }
     store_row_sums(o, row_sum);
     Symmetric diagonal = row_sum;
     for (const int entry : entries_of(neighbours, first)) {
-        const Symmetric block = blocks_at<1>(level, lanes().neighbour_edges + entry);
+        const Symmetric block = blocks_at(level, lanes().neighbour_edges + entry);
         store_coupling(entry, block);
         diagonal = plus(diagonal, block);
     }

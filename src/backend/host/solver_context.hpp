@@ -16,7 +16,7 @@ struct SolverConstants {
     /// As LimitCurve of laws/limit.law.glsl.
     struct Curve {
         int kind = 0;
-        Number below{}, limit{}, beyond{}, compressed{}, damping{}, reach{};
+        Number below{}, limit{}, beyond{}, compressed{}, damping{}, reach{}, kept{};
     };
     Number dt{}, inverse_dt{}, decay{}, thickness{};
     // Steps of second order: see newton.kernel.glsl. 0: they are of first order.

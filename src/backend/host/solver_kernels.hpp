@@ -190,7 +190,8 @@ struct SolverKernels {
                 spread(c.compressed),
                 spread(c.damping),
                 spread(Number(0)),
-                spread(c.reach)};
+                spread(c.reach),
+                spread(c.kept)};
     }
     real sheet_rest(int k) const
     {
@@ -280,6 +281,7 @@ struct SolverKernels {
     }
 
     bool is_last_look() const { return static_cast<int>(detail_) == detail_last_look; }
+    bool is_polish_look() const { return static_cast<int>(detail_) == detail_polish_look; }
     bool is_cloth() const { return is_cloth_; }
     bool is_acad() const { return constants.is_acad; }
     bool acad_has_memory() const { return constants.acad_has_memory; }
@@ -414,11 +416,12 @@ struct SolverKernels {
     else                       \
         LOOP_each(name##_lanes, unit)
 #define LOOP_records(name, unit) LOOP_lanes(name, unit)
-#define LOOP_spring_groups(name, unit) \
-    if constexpr (scalar)              \
-        LOOP_each(name, unit);         \
-    else                               \
+#define LOOP_groups(name, unit) \
+    if constexpr (scalar)       \
+        LOOP_each(name, unit);  \
+    else                        \
         name##_groups(pass, begin, end)
+#define LOOP_record_groups(name, unit) LOOP_groups(name, unit)
 #define LOOP_WHERE(condition, name, unit, loop) \
     case Pass::name:                            \
         if constexpr (condition) {              \
@@ -438,7 +441,8 @@ struct SolverKernels {
 #undef LOOP_own_rows
 #undef LOOP_lanes
 #undef LOOP_records
-#undef LOOP_spring_groups
+#undef LOOP_groups
+#undef LOOP_record_groups
 #undef LOOP_WHERE
         }
     }

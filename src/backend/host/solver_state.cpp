@@ -98,7 +98,8 @@ SolverConstants<T> make_solver_constants(const ClothModel& model, double step_le
                        number(springs.beyond),
                        number(springs.compressed),
                        number(step_length > 0 ? damping / model.implicit_step(step_length) : 0),
-                       number(springs.below > 0 ? springs.limit : -1)};
+                       number(springs.below > 0 ? springs.limit : -1),
+                       number(1)};
     }
     if (grab.hold > 0 && !model.hierarchy.empty()) {
         const auto columns = static_cast<std::uint32_t>(model.hierarchy.levels.front().columns);
@@ -135,6 +136,7 @@ SolverConstants<T> make_solver_constants(const ClothModel& model, double step_le
         for (std::size_t k = 0; k < spring_class_count; ++k) {
             if (!model.remembers(static_cast<SpringClass>(k))) continue;
             c.remembers[k] = true;
+            c.curves[k].kept = number(model.kept_when_slack());
             c.compliance[k] = number(1 / model.limited[k].beyond);
             c.softest[k] = number(model.softest_limit(static_cast<SpringClass>(k), step_length));
         }

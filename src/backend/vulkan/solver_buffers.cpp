@@ -120,11 +120,12 @@ void SolverBuffers::set_constants(double step_length)
     block.curve_damping = {c.curves[0].damping, c.curves[1].damping, c.curves[2].damping, c.polish_reach};
     block.curve_reach = {c.curves[0].reach, c.curves[1].reach, c.curves[2].reach, c.acad_reach};
     std::copy(std::begin(c.relaxations), std::end(c.relaxations), &block.relaxations[0].x);
-    block.tolerances = {c.linear_tolerance, c.newton_tolerance, c.enough_iterations, 0};
+    block.tolerances = {c.linear_tolerance, c.newton_tolerance, c.enough_iterations, 1};
     for (std::size_t k = 0; k < spring_class_count; ++k) {
         block.softest[k] = c.softest[k];
         block.compliance[k] = c.compliance[k];
         block.remembers[k] = c.remembers[k] ? 1 : 0;
+        if (c.remembers[k]) block.tolerances[3] = c.curves[k].kept;
         block.remembers[3] |= block.remembers[k];
     }
     block.softest[2] = c.softest_held;  // no bend spring remembers

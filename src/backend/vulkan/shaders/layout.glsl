@@ -58,7 +58,8 @@ struct SolverBlock
     vec4 curve_damping;      // N/m by class; w: m, polish_reach
     vec4 curve_reach;        // by class; w: acad_reach
     vec4 relaxations[2];
-    vec4 tolerances;         // of the linear solve, of Newton's method, and its iterations
+    vec4 tolerances;         // of the linear solve, of Newton's method, and its iterations; w: LimitCurve::kept of
+                             // limits that remember
     vec4 softest;            // N/m, of limits that remember: by class with their compliance; z: that hold a node of a
                              // mesh; w: without compliance
     vec4 compliance;         // m/N, by class; z: N/m, as softest.z without compliance; w: N/m, the stiffest limit, too

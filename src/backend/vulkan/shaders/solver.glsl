@@ -97,7 +97,8 @@ bool sheet_has(int k) { return solver.has[sheet_class(k)] != 0u; }
 LimitCurve class_curve(int k)
 {
     vec4 c = solver.curves[k];
-    return LimitCurve(solver.curve_kinds[k], c.x, c.y, c.z, c.w, solver.curve_damping[k], 0.0f, solver.curve_reach[k]);
+    return LimitCurve(solver.curve_kinds[k], c.x, c.y, c.z, c.w, solver.curve_damping[k], 0.0f, solver.curve_reach[k],
+                      solver.remembers[k] != 0u ? solver.tolerances.w : 1.0f);
 }
 LimitCurve sheet_curve(int k) { return class_curve(sheet_class(k)); }
 real sheet_rest(int k)
