@@ -63,8 +63,8 @@ TEST_P(StepCuts, AreTheShorterStepsThatOneCouldHaveAskedFor)
     const std::uint64_t cut_frame = first_cut_frame(GetParam());
     ASSERT_GT(cut_frame, 1u);  // there is something to remember
     ASSERT_LT(cut_frame, 60u);
-    // A state is in float, and the reference steps in double; a step that is hardly solved shows which springs of the
-    // disc rounding takes for slack. Steps of another length are 6 mm off and more.
+    // A state is in float, and the reference steps in double; a step that is hardly solved shows which
+    // springs of the disc rounding takes for slack. Steps of another length are 6 mm off and more.
     const double tolerance = GetParam() == Backend::reference ? 3e-4 : 0;
     for (const std::uint32_t substeps : {1u, 2u}) {
         Simulation cut(hardly_solved(substeps, 1), test::on(GetParam()));
