@@ -309,14 +309,14 @@ TEST_P(StepOracle, HasTheForcesTheEnergyAndTheOperator)
         const SolverArena arena(bench.model, *machine.runner, machine.on_host);
         // Of second order a pin starts from where its step before led, a sum of up to 0.5 m.
         const double place = c.second_order ? rounding * 0.5 : 0;
-        expect_near(arena.vector(plane_t), t, 2 * rounding * 0.05 + place, who + ", start");
+        expect_near(arena.vector(plane_way), t, 2 * rounding * 0.05 + place, who + ", start");
         // On the CPU y is rounded where it is made of terms of up to 1 m/s.
-        expect_near(arena.vector(plane_y), step.aim(), 4 * rounding * 0.05 + place, who + ", aim");
+        expect_near(arena.vector(plane_aim), step.aim(), 4 * rounding * 0.05 + place, who + ", aim");
 
         const Vector force = step.force(t);
         const Matrix newton = step.newton_matrix(t), coarse = step.coarse_matrix(t);
-        expect_near(arena.vector(plane_r), force, force_tolerance(machine, force.lpNorm<Eigen::Infinity>()),
-                    who + ", force");
+        expect_near(arena.vector(plane_residual), force,
+                    force_tolerance(machine, force.lpNorm<Eigen::Infinity>()), who + ", force");
         expect_near(machine, arena.matrix(), newton, who + ", operator");
         expect_near(machine, arena.matrix(true), coarse, who + ", couplings of the coarser level");
         const std::vector<Block> diagonal = arena.diagonal();
@@ -354,11 +354,11 @@ TEST_P(StepOracle, HasTheProductOfTheOperator)
         append_linear_iterations(bench.model, 0, 0, 1, calls);
         bench.run(*machine.runner, calls);
         const SolverArena arena(bench.model, *machine.runner, machine.on_host);
-        const Vector p = arena.vector(plane_p), product = newton * p;
+        const Vector p = arena.vector(plane_direction), product = newton * p;
         EXPECT_GT(p.norm(), 1);
         // Of each row a sum of up to 27 products.
         const double size = newton.cwiseAbs().rowwise().sum().maxCoeff() * p.lpNorm<Eigen::Infinity>();
-        expect_near(arena.vector(plane_ap), product, (machine.exact ? 4 : 64) * rounding * size,
+        expect_near(arena.vector(plane_applied), product, (machine.exact ? 4 : 64) * rounding * size,
                     machine.name + ", product");
     }
 }
@@ -483,7 +483,7 @@ double first_newton_step(Backend backend)
     calls.push_back({Pass::newton_move, 0, 0, 0});
     const std::vector<PlacedCollider> colliders = {placed_at(scene.colliders[0], 0)};
     runner->run({1, std::move(calls), 0}, {1.0 / 60, 1, colliders, true, {}});
-    const Vector t = SolverArena(model, *runner, backend != Backend::vulkan).vector(plane_t);
+    const Vector t = SolverArena(model, *runner, backend != Backend::vulkan).vector(plane_way);
     double sum = 0;
     for (Eigen::Index k = 1; k < t.size(); k += 3) sum += t[k];
     return sum / static_cast<double>(t.size() / 3);

@@ -174,8 +174,8 @@ TEST(PaperSystem, IsThatOfTheEquations)
         }
         right_side[s] = (dot(d, d) - std::pow(constraints[s].rest_length, 2)) / (dt * dt) +
                         std::inner_product(u.begin(), u.end(), jacobian[s].begin(), 0.0) / dt;
-        EXPECT_NEAR(exact.row(row_r, s), right_side[s], 1e-9);
-        EXPECT_NEAR(single.row(row_r, s), right_side[s], 2e-2);  // of some 100 m2/s2
+        EXPECT_NEAR(exact.row(row_residual, s), right_side[s], 1e-9);
+        EXPECT_NEAR(single.row(row_residual, s), right_side[s], 2e-2);  // of some 100 m2/s2
     }
     const auto of_double = exact.matrix(), of_single = single.matrix();
     for (std::size_t s = 0; s < m; ++s)
@@ -261,7 +261,7 @@ Solved solve_curved(bool shear, bool bend, std::uint32_t iterations)
     std::vector<double> b(m), lambda(m), r(m), r_used(m);
     Solved result;
     for (std::size_t s = 0; s < m; ++s) {
-        b[s] = before.row(row_r, s);
+        b[s] = before.row(row_residual, s);
         lambda[s] = bench.row(row_lambda, s);
         result.finite = result.finite && std::isfinite(lambda[s]);
     }

@@ -180,7 +180,7 @@ std::vector<Resource> resources_of_arena(const ClothModel& model)
         for (int plane = 0; plane < planes; ++plane) {
             const bool history = hierarchy.history_plane > 0 && plane >= hierarchy.history_plane;
             const bool vectors =
-                plane < plane_mass || plane == plane_active || (plane >= plane_x && plane < plane_slide);
+                plane < plane_mass || plane == plane_active || (plane >= plane_step && plane < plane_slide);
             const bool blocks = (plane >= plane_block && plane < level_planes) ||
                                 (model.is_sheet() && plane >= plane_bend && plane < first_of_mesh);
             // Of a mesh a plane begins with its one row: planes overlap in the border that they do not have.

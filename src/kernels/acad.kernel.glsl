@@ -114,9 +114,9 @@ KERNEL void acad_begin(int o)
 {
     vec3 q = node_position(o), ahead = node_next_position(o) - q;
     real mass = choose(node_inverse_mass(o) > 0.0f, node_mass(o) * inverse_step() * inverse_step(), real(0.0f));
-    store3(plane_q, o, q);
-    store3(plane_t, o, ahead);
-    store3(plane_y, o, ahead);
+    store3(plane_start, o, q);
+    store3(plane_way, o, ahead);
+    store3(plane_aim, o, ahead);
     store(plane_mass, o, mass);
     store(plane_grip, o, real(0.0f));
     vec3 change = ahead - node_velocity(o) * step_length();
@@ -126,8 +126,8 @@ KERNEL void acad_begin(int o)
 // v' = v_springs + (t - y) / dt
 KERNEL void acad_end(int o)
 {
-    vec3 t = load3(plane_t, o);
-    vec3 v = node_next_velocity(o) + (t - load3(plane_y, o)) * inverse_step();
+    vec3 t = load3(plane_way, o);
+    vec3 v = node_next_velocity(o) + (t - load3(plane_aim, o)) * inverse_step();
     v = choose(node_inverse_mass(o) > 0.0f, settled_velocity(v), node_next_velocity(o));
-    node_end(o, load3(plane_q, o) + t, v);
+    node_end(o, load3(plane_start, o) + t, v);
 }

@@ -53,15 +53,15 @@ KERNEL void bottom_solve()
 {
     int n = 3 * bottom_nodes();
     for (int i = 0; i < n; ++i) {
-        real a = bottom_vector(plane_r, i);
-        for (int k = 0; k < i; ++k) a = a - bottom_get(i * n + k) * bottom_vector(plane_z, k);
-        bottom_set_vector(plane_z, i, a);
+        real a = bottom_vector(plane_residual, i);
+        for (int k = 0; k < i; ++k) a = a - bottom_get(i * n + k) * bottom_vector(plane_correction, k);
+        bottom_set_vector(plane_correction, i, a);
     }
     for (int i = 0; i < n; ++i)
-        bottom_set_vector(plane_z, i, bottom_vector(plane_z, i) * reciprocal(bottom_get(i * n + i)));
+        bottom_set_vector(plane_correction, i, bottom_vector(plane_correction, i) * reciprocal(bottom_get(i * n + i)));
     for (int i = n - 1; i >= 0; --i) {
-        real a = bottom_vector(plane_z, i);
-        for (int k = i + 1; k < n; ++k) a = a - bottom_get(k * n + i) * bottom_vector(plane_z, k);
-        bottom_set_vector(plane_z, i, a);
+        real a = bottom_vector(plane_correction, i);
+        for (int k = i + 1; k < n; ++k) a = a - bottom_get(k * n + i) * bottom_vector(plane_correction, k);
+        bottom_set_vector(plane_correction, i, a);
     }
 }

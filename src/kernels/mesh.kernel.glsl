@@ -63,7 +63,7 @@ KERNEL void mesh_springs(int e)
 {
     int ends = level.edge_ends + 3 * e;
     int i = topology(ends), j = topology(ends + 1);
-    vec3 start = load3(plane_q, j) - load3(plane_q, i), moved = load3(plane_t, j) - load3(plane_t, i);
+    vec3 start = load3(plane_start, j) - load3(plane_start, i), moved = load3(plane_way, j) - load3(plane_way, i);
     SpringShare spring =
         spring_share(damped_between(mesh_limit(e, mesh_class(e)), i, j), start, moved, damper_between(start, i, j),
                      edge_load(edge_rest, e), mesh_scale(e));
@@ -84,7 +84,7 @@ KERNEL void mesh_multiply(int e)
     int ends = level.edge_ends + 3 * e, spring_class = mesh_class(e);
     if (!remembers(spring_class)) return;
     int i = topology(ends), j = topology(ends + 1);
-    vec3 d = load3(plane_q, j) - load3(plane_q, i) + (load3(plane_t, j) - load3(plane_t, i));
+    vec3 d = load3(plane_start, j) - load3(plane_start, i) + (load3(plane_way, j) - load3(plane_way, i));
     RenewedLimit limit = mesh_renewed(e, spring_class, d);
     edge_store(edge_slip, e, limit.memory.slip);
     edge_store(edge_stiff, e, limit.memory.stiffness);
@@ -109,10 +109,10 @@ struct MeshNode
 };
 KERNEL MeshNode mesh_node_alone(int o)
 {
-    vec3 q = load3(plane_q, o), t = load3(plane_t, o);
+    vec3 q = load3(plane_start, o), t = load3(plane_way, o);
     MeshNode node;
     node.mass = load(plane_mass, o);
-    vec3 ahead = t - load3(plane_y, o);
+    vec3 ahead = t - load3(plane_aim, o);
     Contact contact = contact_at(o, q, t);
     node.r = ahead * (real(0.0f) - node.mass) + contact.force;
     node.row_sum = plus(symmetric_diagonal(node.mass), contact.stiffness);
@@ -133,7 +133,7 @@ KERNEL void leave_mesh_node(int o, MeshNode node)
     mask is_free = node.mass > 0.0f;
     store(plane_active, o, node.taut);
     store6(plane_factor, o, where_else_zero(is_free, factored(node.row_sum, node.mass)));
-    store3(plane_r, o, choose(is_free, node.r, vec3(real(0.0f), real(0.0f), real(0.0f))));
+    store3(plane_residual, o, choose(is_free, node.r, vec3(real(0.0f), real(0.0f), real(0.0f))));
     sums[0] = sums[0] + node.energy;
     sums[1] = sums[1] + node.contact_energy;
 }
@@ -183,7 +183,7 @@ KERNEL vec3 mesh_row_product(int x, int o)
 // As linear_apply, level_smooth and level_residual have it for sheets.
 KERNEL void mesh_apply(int o)
 {
-    leave_applied(o, mesh_row_product(plane_p, o));
+    leave_applied(o, mesh_row_product(plane_direction, o));
 }
 KERNEL void mesh_smooth(int o)
 {
@@ -218,8 +218,8 @@ KERNEL void mesh_coarsen_nodes(int o)
 // The residual of the finer level, gathered, and the first correction of this one.
 KERNEL void leave_restricted(int o, vec3 r)
 {
-    store3(plane_r, o, r);
-    store3(plane_z, o, solved(load6(plane_factor, o), r) * relaxation());
+    store3(plane_residual, o, r);
+    store3(plane_correction, o, solved(load6(plane_factor, o), r) * relaxation());
 }
 KERNEL void mesh_restrict(int o)
 {
@@ -227,7 +227,7 @@ KERNEL void mesh_restrict(int o)
     vec3 r = vec3(real(0.0f), real(0.0f), real(0.0f));
     int end = topology(level.children_start + node + 1);
     for (int k = topology(level.children_start + node); k < end; k += 2)
-        r = plus_scaled(r, finer_load3(plane_s, topology(k)), topology_weight(k + 1));
+        r = plus_scaled(r, finer_load3(plane_left, topology(k)), topology_weight(k + 1));
     leave_restricted(o, r);
 }
 
@@ -346,13 +346,13 @@ KERNEL void mesh_live(int group)
 KERNEL void mesh_multipliers(int o)
 {
     int node = mesh_node(o);
-    vec3 x = load3(plane_q, o) + load3(plane_t, o);
+    vec3 x = load3(plane_start, o) + load3(plane_way, o);
     real most = real(0.0f);
     for (int list = 0; list < 2; ++list) {
         int start = (list == 0 ? level.row_start : level.held_start) + node;
         for (int k = topology(start); k < topology(start + 1); k += 2) {
             int e = topology(k + 1), j = topology(k);
-            vec3 d = load3(plane_q, j) + load3(plane_t, j) - x;
+            vec3 d = load3(plane_start, j) + load3(plane_way, j) - x;
             real length2 = dot3(d, d), rest = edge_load(edge_rest, e);
             SpringState state = spring_state(mesh_limit(e, mesh_class(e)), length2, inverse_sqrt(length2), rest);
             most = largest(magnitude(state.multiplier * mesh_scale(e)), most);

@@ -78,7 +78,7 @@ struct SpringShare
 KERNEL vec3 damper_between(vec3 start, int i, int j)
 {
     if (!is_second_order() || !has_damping()) return start;
-    return start + (load3(plane_y, j) - load3(plane_y, i));
+    return start + (load3(plane_aim, j) - load3(plane_aim, i));
 }
 
 // state: of the spring as it is now; start: x_j - x_i when the step began; d: now; damper: see above; scale: 1, or 0 where
@@ -119,7 +119,8 @@ KERNEL SpringShare spring_share(LimitCurve curve, vec3 start, vec3 moved, vec3 d
 // that come and go. Where that lets a node too deep in, as what is pressed on by a whole cloth, k grows.
 // Source: Hestenes, "Multiplier and gradient methods", 1969.
 // Friction is that of Li et al., "Incremental Potential Contact", 2020: the normal force that is known (of the last step, and
-// from the middle of this one's iterations on of this one) times the coefficient, growing linearly with the tangential displacement up to `slip`, constant beyond.
+// from the middle of this step's iterations on of this one) times the coefficient. It grows linearly with the tangential
+// displacement up to `slip`, and is constant beyond.
 struct Contact
 {
     vec3 force;         // N
@@ -192,7 +193,7 @@ KERNEL Contact contact_at(int o, vec3 q, vec3 t)
     c.stiffness = plus(c.stiffness, symmetric_about(n, real(0.0f), grip * per_length));
     // A node that its inertia takes on against friction meets none that grows with its way. One that friction will stop is
     // slowed down by the secant, which does not overshoot.
-    vec3 ahead = load3(plane_y, o) - load3(plane_drag, o);
+    vec3 ahead = load3(plane_aim, o) - load3(plane_drag, o);
     ahead = ahead - n * dot3(ahead, n);
     real inertia = load(plane_mass, o);
     mask slides = both(length > slip(), inertia * inertia * dot3(ahead, ahead) > grip * grip);
@@ -301,9 +302,9 @@ KERNEL void step_begin(int o)
     }
     if (collider_count() > 0) aim = risen(o, q, aim, step, inverse_step);
     aim = choose(is_free, aim, start);
-    store3(plane_q, o, q);
-    store3(plane_t, o, start);
-    store3(plane_y, o, aim);
+    store3(plane_start, o, q);
+    store3(plane_way, o, start);
+    store3(plane_aim, o, aim);
     store(plane_mass, o, mass);
     vec3 ahead = aim - start;
     sums[0] = sums[0] + mass * dot3(ahead, ahead);
@@ -328,7 +329,7 @@ KERNEL void step_begin(int o)
 // there is a difference, by what it would move the nodes' masses.
 KERNEL void contact_change(int o)
 {
-    Contact contact = contact_at(o, load3(plane_q, o), load3(plane_t, o));
+    Contact contact = contact_at(o, load3(plane_start, o), load3(plane_way, o));
     real mass = load(plane_mass, o), change = contact.press - load(plane_press, o);
     real moved = change * reciprocal(choose(mass > 0.0f, mass, real(1.0f)));
     sums[0] = sums[0] + mass * moved * moved;
@@ -344,7 +345,7 @@ KERNEL real firm_for(real firm, real depth)
 }
 KERNEL void contact_keep(int o)
 {
-    vec3 q = load3(plane_q, o), t = load3(plane_t, o);
+    vec3 q = load3(plane_start, o), t = load3(plane_way, o);
     Contact contact = contact_at(o, q, t);
     Grip g = no_grip();
     for (int k = 0; k < collider_count(); ++k)
@@ -363,7 +364,7 @@ KERNEL void contact_keep(int o)
 // Source: projected Newton methods; Bertsekas, 1982.
 KERNEL vec3 stopped_by_colliders(int o, vec3 t, vec3 x)
 {
-    vec3 q = load3(plane_q, o), ahead = load3(plane_y, o) - t;
+    vec3 q = load3(plane_start, o), ahead = load3(plane_aim, o) - t;
     real mass = load(plane_mass, o), touched = load(plane_touched, o), k_node = contact_stiffness_of(o);
     real give = reciprocal(choose(k_node > 0.0f, k_node, real(1.0f)));
     for (int k = 0; k < collider_count(); ++k) {
@@ -380,13 +381,13 @@ KERNEL vec3 stopped_by_colliders(int o, vec3 t, vec3 x)
 // Newton's step, whole, and part of it again when the line search refuses it.
 KERNEL void newton_move(int o)
 {
-    vec3 t = load3(plane_t, o), x = load3(plane_x, o);
+    vec3 t = load3(plane_way, o), x = load3(plane_step, o);
     if (collider_count() > 0) {
         x = choose(load(plane_mass, o) > 0.0f, stopped_by_colliders(o, t, x), x);
-        store3(plane_x, o, x);
+        store3(plane_step, o, x);
     }
-    store3(plane_u, o, t);
-    store3(plane_t, o, t + x);
+    store3(plane_accepted, o, t);
+    store3(plane_way, o, t + x);
 }
 // What is left of local errors at the end of a step: a damped step of block Jacobi, from what the last look has left. It
 // takes the peaks of stretch at single springs. Nothing but a node's inertia resists a step across springs that lie in one
@@ -395,39 +396,39 @@ KERNEL void newton_move(int o)
 KERNEL void newton_polish(int o)
 {
     Symmetric factor = load6(plane_factor, o);
-    vec3 x = solved(factor, load3(plane_r, o)) * real(0.7f);
+    vec3 x = solved(factor, load3(plane_residual, o)) * real(0.7f);
     vec3 softest = solved(factor, x);
     softest = softest * inverse_sqrt(dot3(softest, softest));
     real way = dot3(softest, x), reach = polish_reach();
     real kept = choose(way > reach, reach, largest(way, real(0.0f) - reach));
-    store3(plane_t, o, load3(plane_t, o) + (x + softest * (kept - way)));
+    store3(plane_way, o, load3(plane_way, o) + (x + softest * (kept - way)));
 }
 KERNEL void search_move(int o)
 {
-    store3(plane_t, o, load3(plane_u, o) + load3(plane_x, o) * scalar(scalar_step));
+    store3(plane_way, o, load3(plane_accepted, o) + load3(plane_step, o) * scalar(scalar_step));
 }
 
 // v' = t / dt, x' = q + t. A node that touches a collider has the velocity of its way in this step: by BDF2 one that is
-// stopped would be thrown back by half of what it came with. The sum is the work of everything but springs and gravity's share of inertia, for the balance
-// of energy in solve_end.
+// stopped would be thrown back by half of what it came with. The sum is the work of everything but springs and gravity's
+// share of inertia, for the balance of energy in solve_end.
 KERNEL void step_end(int o)
 {
-    vec3 t = load3(plane_t, o);
+    vec3 t = load3(plane_way, o);
     vec3 v = t * inverse_step_of(o), way = t;
-    vec3 inertia = (t - load3(plane_y, o)) * load(plane_mass, o);
-    Contact contact = contact_at(o, load3(plane_q, o), t);
+    vec3 inertia = (t - load3(plane_aim, o)) * load(plane_mass, o);
+    Contact contact = contact_at(o, load3(plane_start, o), t);
     store(plane_press, o, contact.press);
     store(plane_touched, o, contact.touched);
     store(plane_firm, o, firm_for(load(plane_firm, o) * 0.5f, contact.depth));
     if (is_second_order()) {
-        way = t + (load3(plane_q, o) - node_position(o));
+        way = t + (load3(plane_start, o) - node_position(o));
         mask touches = contact.press > 0.0f;
         v = choose(touches, way * inverse_step(), v);
         store3(history_plane() + history_way, o, way);
         store3(history_plane() + history_velocity, o, node_velocity(o));
         store(history_plane() + history_step, o, choose(touches, real(0.0f), step_length()));
     }
-    node_end(o, load3(plane_q, o) + t, settled_velocity(v));
+    node_end(o, load3(plane_start, o) + t, settled_velocity(v));
     sums[0] = sums[0] + dot3(contact.force - inertia, way);
     sums[1] = sums[1] + load(plane_active, o);
 }

@@ -28,9 +28,9 @@ KERNEL void paper_begin(int o)
     vec3 q = node_position(o);
     real w = node_inverse_mass(o);
     vec3 carried = (node_next_position(o) - q) * inverse_step();
-    store3(paper_q, o, q);
-    store3(paper_v, o, choose(w > 0.0f, node_velocity(o), carried));
-    store(paper_w, o, w);
+    store3(paper_start_position, o, q);
+    store3(paper_velocity, o, choose(w > 0.0f, node_velocity(o), carried));
+    store(paper_inverse_mass, o, w);
 }
 
 // Section 3.3: whether a spring is a constraint in this step. One that was stays one until its stretch is below the
@@ -50,18 +50,18 @@ KERNEL real next_mark(int s, real stretch)
 KERNEL void paper_springs(int s)
 {
     int i = spring_end(s, 0), j = spring_end(s, 1), k = topology(topology(rows_classes) + s);
-    vec3 xi = load3(paper_q, i), xj = load3(paper_q, j);
+    vec3 xi = load3(paper_start_position, i), xj = load3(paper_start_position, j);
     real rest = row_get(row_rest, s), mark = real(0.0f);
     if (s < topology(rows_constraints)) {
         mark = topology(rows_adaptive) != 0 ? next_mark(s, spring_stretch(xi, xj, rest)) : real(1.0f);
         row_set(row_mark, s, mark);
         row_set3(row_jacobian, s, xi - xj);
-        row_set(row_p, s, real(0.0f));  // a column of the matrix that nobody uses now adds nothing
+        row_set(row_direction, s, real(0.0f));  // a column of the matrix that nobody uses now adds nothing
     }
     bool is_constraint = magnitude(mark) > 0.0f;
     vec3 force = vec3(real(0.0f), real(0.0f), real(0.0f));
     if (!is_constraint)
-        force = spring_force(xi, xj, load3(paper_v, i), load3(paper_v, j), rest, paper_value(paper_stiffness + k),
+        force = spring_force(xi, xj, load3(paper_velocity, i), load3(paper_velocity, j), rest, paper_value(paper_stiffness + k),
                              paper_value(paper_damping + k));
     row_set3(row_force, s, force);
     sums[0] = sums[0] + (is_constraint ? real(1.0f) : real(0.0f));
@@ -78,11 +78,11 @@ KERNEL void paper_gather(int o, int node)
         force = entry % 2 == 0 ? force + f : force - f;
     }
     force = force + node_force(o);
-    real w = load(paper_w, o);
-    vec3 v = load3(paper_v, o);
+    real w = load(paper_inverse_mass, o);
+    vec3 v = load3(paper_velocity, o);
     vec3 u = velocity_step(v, force, w, gravity(), decay(), step_length());
-    store3(paper_f, o, force);
-    store3(paper_u, o, choose(w > 0.0f, u, v));
+    store3(paper_force, o, force);
+    store3(paper_free_velocity, o, choose(w > 0.0f, u, v));
 }
 
 // How many constraints there are. With none, the solve is skipped.
@@ -140,10 +140,10 @@ KERNEL real shared_inverse_mass(int s, int t)
 {
     int si = spring_end(s, 0), sj = spring_end(s, 1), ti = spring_end(t, 0), tj = spring_end(t, 1);
     real c = real(0.0f);
-    if (si == ti) c = c + load(paper_w, si);
-    if (sj == tj) c = c + load(paper_w, sj);
-    if (si == tj) c = c - load(paper_w, si);
-    if (sj == ti) c = c - load(paper_w, sj);
+    if (si == ti) c = c + load(paper_inverse_mass, si);
+    if (sj == tj) c = c + load(paper_inverse_mass, sj);
+    if (si == tj) c = c - load(paper_inverse_mass, si);
+    if (sj == ti) c = c - load(paper_inverse_mass, sj);
     return c;
 }
 
@@ -163,10 +163,10 @@ KERNEL void paper_system(int k)
         if (t == s) c = c + compliance;
         set_number(topology(rows_matrix) + e, 4.0f * c * dot3(d, row_get3(row_jacobian, t)));
     }
-    vec3 approach = load3(paper_u, spring_end(s, 0)) - load3(paper_u, spring_end(s, 1));
+    vec3 approach = load3(paper_free_velocity, spring_end(s, 0)) - load3(paper_free_velocity, spring_end(s, 1));
     real b = ((length2 - target * target) * inverse_step() + 2.0f * dot3(d, approach)) * inverse_step();
-    row_set(row_r, s, b);
-    row_set(row_p, s, b);
+    row_set(row_residual, s, b);
+    row_set(row_direction, s, b);
     row_set(row_lambda, s, real(0.0f));
     row_set(row_best, s, real(0.0f));
     sums[0] = sums[0] + b * b;
@@ -197,9 +197,9 @@ KERNEL void paper_apply(int k)
     int first = topology(topology(rows_matrix_start) + s), end = topology(topology(rows_matrix_start) + s + 1);
     real ap = real(0.0f);
     for (int e = first; e < end; ++e)
-        ap = ap + number(topology(rows_matrix) + e) * row_get(row_p, topology(topology(rows_columns) + e));
-    row_set(row_ap, s, ap);
-    sums[0] = sums[0] + row_get(row_p, s) * ap;
+        ap = ap + number(topology(rows_matrix) + e) * row_get(row_direction, topology(topology(rows_columns) + e));
+    row_set(row_applied, s, ap);
+    sums[0] = sums[0] + row_get(row_direction, s) * ap;
 }
 
 // Eq. (13). J M^-1 J^T is singular where constraints depend on each other; a direction without curvature ends it all.
@@ -222,11 +222,11 @@ KERNEL void paper_update(int k)
 {
     int s = active_row(k);
     real alpha = scalar(scalar_alpha);
-    real mark = row_get(row_mark, s), lambda = row_get(row_lambda, s) + alpha * row_get(row_p, s);
+    real mark = row_get(row_mark, s), lambda = row_get(row_lambda, s) + alpha * row_get(row_direction, s);
     bool dropped = !(magnitude(mark) > 0.0f);
-    real r = dropped ? real(0.0f) : row_get(row_r, s) - alpha * row_get(row_ap, s);
+    real r = dropped ? real(0.0f) : row_get(row_residual, s) - alpha * row_get(row_applied, s);
     row_set(row_lambda, s, lambda);
-    row_set(row_r, s, r);
+    row_set(row_residual, s, r);
     sums[0] = sums[0] + r * r;
     sums[1] = sums[1] + (lambda * mark < 0.0f ? real(1.0f) : real(0.0f));
 }
@@ -253,14 +253,14 @@ KERNEL void paper_direction(int k)
 {
     int s = active_row(k);
     if (scalar(scalar_better) > 0.0f) row_set(row_best, s, row_get(row_lambda, s));
-    real p = row_get(row_r, s) + scalar(scalar_beta) * row_get(row_p, s);
+    real p = row_get(row_residual, s) + scalar(scalar_beta) * row_get(row_direction, s);
     if (scalar(scalar_dropping) > 0.0f) {
         real lambda = row_get(row_lambda, s);
         bool pushes = lambda * row_get(row_mark, s) < 0.0f;
         if (pushes) row_set(row_mark, s, real(0.0f));
         p = pushes ? real(0.0f) - lambda : real(0.0f);
     }
-    row_set(row_p, s, p);
+    row_set(row_direction, s, p);
 }
 
 // The multipliers that are used. Where the iterations did not suffice, a unilateral constraint may push in this step.
@@ -274,8 +274,8 @@ KERNEL void paper_multipliers(int k)
 // itself, as everywhere else in the explicit methods.
 KERNEL void paper_step(int o, int node)
 {
-    vec3 force = load3(paper_f, o), v = load3(paper_v, o);
-    real w = load(paper_w, o), largest_force = real(0.0f);
+    vec3 force = load3(paper_force, o), v = load3(paper_velocity, o);
+    real w = load(paper_inverse_mass, o), largest_force = real(0.0f);
     if (!(scalar(scalar_idle) > 0.0f)) {
         int first = topology(topology(rows_node_start) + node), end = topology(topology(rows_node_start) + node + 1);
         for (int e = first; e < end; ++e) {
@@ -289,7 +289,7 @@ KERNEL void paper_step(int o, int node)
     }
     store(paper_multiplier, o, largest_force);
     Motion now, next;
-    now.position = load3(paper_q, o);
+    now.position = load3(paper_start_position, o);
     now.velocity = v;
     next.velocity = choose(w > 0.0f, velocity_step(v, force, w, gravity(), decay(), step_length()), v);
     next.position = choose(w > 0.0f, position_step(now.position, next.velocity, step_length()), node_next_position(o));

@@ -28,7 +28,7 @@ KERNEL LimitCurve sheet_limit(int k, int first)
 // A spring as the node at i has it, which it draws towards the one at j; nothing where `scale` is 0. It begins at `first`.
 KERNEL SpringShare sheet_spring(int k, int i, int j, real scale, int first)
 {
-    vec3 start = load3(plane_q, j) - load3(plane_q, i), moved = load3(plane_t, j) - load3(plane_t, i);
+    vec3 start = load3(plane_start, j) - load3(plane_start, i), moved = load3(plane_way, j) - load3(plane_way, i);
     return spring_share(damped_between(sheet_limit(k, first), i, j), start, moved, damper_between(start, i, j), sheet_rest(k),
                         scale);
 }
@@ -40,13 +40,13 @@ KERNEL real counted_taut(SpringShare spring)
 // The largest force of a constraint at a node, N.
 KERNEL void sheet_multipliers(int o)
 {
-    vec3 x = load3(plane_q, o) + load3(plane_t, o);
+    vec3 x = load3(plane_start, o) + load3(plane_way, o);
     real most = real(0.0f);
     for (int side = 0; side < 2; ++side)
         for (int k = 0; k < 6; ++k) {
             if (!sheet_has(k)) continue;
             int j = side == 0 ? o + forward_offset(k) : o - forward_offset(k), first = side == 0 ? o : j;
-            vec3 d = load3(plane_q, j) + load3(plane_t, j) - x;
+            vec3 d = load3(plane_start, j) + load3(plane_way, j) - x;
             real length2 = dot3(d, d);
             SpringState state = spring_state(sheet_limit(k, first), length2, inverse_sqrt(length2), sheet_rest(k));
             real scale = spring_scale(k, first);
@@ -58,11 +58,11 @@ KERNEL void sheet_multipliers(int o)
 // What the limits of a node's forward springs remember of the step. The sum is what that adds to their energy.
 KERNEL void sheet_multiply(int o)
 {
-    vec3 x = load3(plane_q, o) + load3(plane_t, o);
+    vec3 x = load3(plane_start, o) + load3(plane_way, o);
     UNROLL for (int k = 0; k < 4; ++k) {
         if (!sheet_has(k) || !remembers(sheet_class(k))) continue;
         int j = o + forward_offset(k);
-        vec3 d = load3(plane_q, j) + load3(plane_t, j) - x;
+        vec3 d = load3(plane_start, j) + load3(plane_way, j) - x;
         real scale = spring_scale(k, o);
         RenewedLimit limit = renewed(sheet_limit(k, o), dot3(d, d), sheet_rest(k), sheet_class(k), softest_limit());
         store(plane_slip + k, o, limit.memory.slip * scale);
@@ -101,10 +101,10 @@ KERNEL int bend_along(int k)
 // Forces and the operator of a node, springs apart: inertia and contact. They go by sums[1] and [2].
 KERNEL SheetNode sheet_node(int o)
 {
-    vec3 t = load3(plane_t, o);
+    vec3 t = load3(plane_way, o);
     real mass = load(plane_mass, o);
-    vec3 ahead = t - load3(plane_y, o);
-    Contact contact = contact_at(o, load3(plane_q, o), t);
+    vec3 ahead = t - load3(plane_aim, o);
+    Contact contact = contact_at(o, load3(plane_start, o), t);
     SheetNode node;
     node.r = contact.force - ahead * mass;
     node.row_sum = plus(symmetric_diagonal(mass), contact.stiffness);
@@ -152,7 +152,7 @@ KERNEL void leave_gathered(int o, SheetNode node, real energy, real taut)
     store(plane_active, o, taut);
     store6(plane_row_sum, o, where_else_zero(is_free, node.row_sum));
     store6(plane_factor, o, where_else_zero(is_free, factored(node.diagonal, mass)));
-    store3(plane_r, o, choose(is_free, node.r, vec3(real(0.0f), real(0.0f), real(0.0f))));
+    store3(plane_residual, o, choose(is_free, node.r, vec3(real(0.0f), real(0.0f), real(0.0f))));
     sums[0] = sums[0] + energy;
 }
 
@@ -372,11 +372,11 @@ KERNEL void sheet_restrict(int o, int f)
     vec3 r = vec3(real(0.0f), real(0.0f), real(0.0f));
     UNROLL for (int row = -1; row <= 1; ++row)
         UNROLL for (int column = -1; column <= 1; ++column)
-            r = plus_scaled(r, finer_load3(plane_s, f + row * finer.stride + column), real((row == 0 ? 1.0f : 0.5f) * (column == 0 ? 1.0f : 0.5f)));
+            r = plus_scaled(r, finer_load3(plane_left, f + row * finer.stride + column), real((row == 0 ? 1.0f : 0.5f) * (column == 0 ? 1.0f : 0.5f)));
     Symmetric factor = load6(plane_factor, o);
     r = choose(factor.xx > 0.0f, r, vec3(real(0.0f), real(0.0f), real(0.0f)));
-    store3(plane_r, o, r);
-    store3(plane_z, o, solved(factor, r) * relaxation());
+    store3(plane_residual, o, r);
+    store3(plane_correction, o, solved(factor, r) * relaxation());
 }
 
 // The correction of this level, added to the four nodes of the finer one at and after f.

@@ -163,8 +163,8 @@ private:
         }
     }
 
-    /// A V-cycle from a level on. The first smoothing step, from zero, is made by who writes the level's r: z
-    /// is there already. The result is in w, the second copy.
+    /// A V-cycle from a level on. The pass that writes the level's residual makes the first smoothing step,
+    /// from zero, so the correction is there already. The result is in its second copy.
     void cycle(std::uint32_t level)
     {
         if (level + 1 == level_count_) {

@@ -102,13 +102,15 @@ template <int W, int first>
 struct QuadsOfOctets {
     static consteval int of(int k) { return (k / 4 % 2 * 8) + (k / 8 * W) + 4 * first + k % 4; }
 };
+template <int W>
+struct OctetRows {
+    typename LaneTypes<W>::Floats quads, others;
+};
 template <int W, int first, class Function>
-PLIANT_INLINE auto every_fourth_octet(const Function& f)
+PLIANT_INLINE OctetRows<W> every_fourth_octet(const Function& f)
 {
     using Floats = typename LaneTypes<W>::Floats;
-    struct {
-        Floats quads, others;
-    } rows;
+    OctetRows<W> rows;
     if constexpr (W == 8) {
         const Floats a = f(first), b = f(first + 4);
         rows.quads = __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11);
@@ -126,8 +128,8 @@ PLIANT_INLINE auto every_fourth_octet(const Function& f)
 template <int W, class Function>
 PLIANT_INLINE TwoQuadPacks<W> packs_from_octets(const Function& f)
 {
-    const auto r0 = every_fourth_octet<W, 0>(f), r1 = every_fourth_octet<W, 1>(f),
-               r2 = every_fourth_octet<W, 2>(f), r3 = every_fourth_octet<W, 3>(f);
+    const OctetRows<W> r0 = every_fourth_octet<W, 0>(f), r1 = every_fourth_octet<W, 1>(f),
+                       r2 = every_fourth_octet<W, 2>(f), r3 = every_fourth_octet<W, 3>(f);
     return {packs_of_rows<W>(r0.quads, r1.quads, r2.quads, r3.quads),
             packs_of_rows<W>(r0.others, r1.others, r2.others, r3.others)};
 }
@@ -222,10 +224,9 @@ PLIANT_INLINE void quads_from_vectors(const Vector3<Pack<W>>& a, const Function&
 /// without c.
 template <int part>
 struct PairsInARow {
-    static consteval int pair(int k) { return 8 * part + k / 2; }
     static consteval int of(int k)
     {
-        const int from = pair(k) % 3, place = 2 * (pair(k) / 3) + k % 2;
+        const int pair = 8 * part + k / 2, from = pair % 3, place = 2 * (pair / 3) + k % 2;
         return from == 0 ? place : from == 1 ? 16 + place : 0;
     }
 };
@@ -233,8 +234,8 @@ template <int part>
 struct ThirdPairsInARow {
     static consteval int of(int k)
     {
-        using Pairs = PairsInARow<part>;
-        return Pairs::pair(k) % 3 == 2 ? 16 + 2 * (Pairs::pair(k) / 3) + k % 2 : k;
+        const int pair = 8 * part + k / 2;
+        return pair % 3 == 2 ? 16 + 2 * (pair / 3) + k % 2 : k;
     }
 };
 template <int part, class Floats>

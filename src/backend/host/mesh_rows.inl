@@ -81,16 +81,16 @@ void make_records(Pass pass, int begin, int end)
             for (int column = first; column < last; column += Lanes<T>::count) {
                 const int o = self.level_offset(0, column);
                 Number* to = self.lanes().states + MeshLanes::state_size * column;
-                Record::template store<MeshLanes::state_size>(to, self.load3(plane_q, o));
+                Record::template store<MeshLanes::state_size>(to, self.load3(plane_start, o));
                 Record::template store<MeshLanes::state_size>(to + MeshLanes::vector_size,
-                                                              self.load3(plane_t, o));
+                                                              self.load3(plane_way, o));
             }
         });
         return;
     }
     const bool is_finer = pass == Pass::mesh_restrict;
     const SolverLevel& of = is_finer ? finer : level;
-    const int plane = is_finer ? plane_s : pass == Pass::mesh_apply ? plane_p : source_plane();
+    const int plane = is_finer ? plane_left : pass == Pass::mesh_apply ? plane_direction : source_plane();
     const int first = is_finer ? finer_offset(0, 0) : level_offset(0, 0);
     const Number* from = (is_finer ? finer_base_ : base_) + (plane * of.size + first);
     Number* to = lanes_of(is_finer ? level_number_ - 1 : level_number_).vectors;
@@ -130,7 +130,7 @@ KERNEL void damp_lanes(int e, vec3 start, LimitCurve& curve, vec3& damper) const
         const int i = level_offset(0, lanes().first_end[e + lane] / MeshLanes::state_size),
                   j = level_offset(0, lanes().second_end[e + lane] / MeshLanes::state_size);
         for (int k = 0; k < 3; ++k)
-            ahead[k * Lanes<T>::count + lane] = *at(plane_y + k, j) - *at(plane_y + k, i);
+            ahead[k * Lanes<T>::count + lane] = *at(plane_aim + k, j) - *at(plane_aim + k, i);
         known[lane] = Number(knows_step(i) && knows_step(j) ? 1 : 0);
     }
     damper = start + three<&Lanes<T>::load>(ahead, Lanes<T>::count);
@@ -323,7 +323,7 @@ KERNEL vec3 lanes_product(int x, int o)
     }
     return y;
 }
-KERNEL void mesh_apply_lanes(int o) { leave_applied(o, lanes_product(plane_p, o)); }
+KERNEL void mesh_apply_lanes(int o) { leave_applied(o, lanes_product(plane_direction, o)); }
 KERNEL void mesh_smooth_lanes(int o) { leave_smoothed(o, lanes_product(source_plane(), o)); }
 KERNEL void mesh_residual_lanes(int o) { leave_residual(o, lanes_product(source_plane(), o)); }
 

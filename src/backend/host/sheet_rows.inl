@@ -73,7 +73,7 @@ void products(Pass pass, int x, int begin, int end)
 
 void linear_apply_rows(Pass pass, int begin, int end)
 {
-    products<&SolverKernels::linear_apply, &SolverKernels::leave_applied>(pass, plane_p, begin, end);
+    products<&SolverKernels::linear_apply, &SolverKernels::leave_applied>(pass, plane_direction, begin, end);
 }
 void level_smooth_rows(Pass pass, int begin, int end)
 {

@@ -156,10 +156,10 @@ struct SolverKernels {
 
     static real spread(Number a) { return Lanes<T>::spread(a); }
     static vec3 spread(Vector3<Number> a) { return {spread(a.x), spread(a.y), spread(a.z)}; }
-    int source_plane() const { return detail_ % 2 == 0 ? plane_z : plane_w; }
-    int target_plane() const { return detail_ % 2 == 0 ? plane_w : plane_z; }
+    int source_plane() const { return detail_ % 2 == 0 ? plane_correction : plane_correction_2; }
+    int target_plane() const { return detail_ % 2 == 0 ? plane_correction_2 : plane_correction; }
     /// Of sheet_prolong, which reads one copy of its own level and adds to another of the finer one.
-    int finer_plane() const { return detail_ / 2 % 2 == 0 ? plane_z : plane_w; }
+    int finer_plane() const { return detail_ / 2 % 2 == 0 ? plane_correction : plane_correction_2; }
     real relaxation() const { return spread(constants.relaxations[detail_ / 2]); }
     real scalar(int k) const { return spread(context.scalars[k]); }
     void set_scalar(int k, real a) const { context.scalars[k] = Lanes<T>::first(a); }

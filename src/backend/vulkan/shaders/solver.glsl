@@ -86,9 +86,9 @@ int finer_coupling(int k)
     return folded ? plane_fold + 3 * k : plane_block + 6 * k;
 }
 
-int source_plane() { return push.detail % 2u == 0u ? plane_z : plane_w; }
-int target_plane() { return push.detail % 2u == 0u ? plane_w : plane_z; }
-int finer_plane() { return push.detail / 2u % 2u == 0u ? plane_z : plane_w; }
+int source_plane() { return push.detail % 2u == 0u ? plane_correction : plane_correction_2; }
+int target_plane() { return push.detail % 2u == 0u ? plane_correction_2 : plane_correction; }
+int finer_plane() { return push.detail / 2u % 2u == 0u ? plane_correction : plane_correction_2; }
 real relaxation() { return solver.relaxations[push.detail / 8u][push.detail / 2u % 4u]; }
 real scalar(int k) { return scalars[k]; }
 
