@@ -129,7 +129,12 @@ void PlainBody<T>::run(const Call& call, PlainCloth<T>& cloth, const StepConstan
                 volumes[k] = total.volume + total.low;
             }
             return;
-        default: return;
+#define BODY_PASS(name, ...)
+#define PASS(name, ...) \
+    case Pass::name: {  \
+        return;         \
+    }
+#include "solve/passes.def"
     }
 }
 

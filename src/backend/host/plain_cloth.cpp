@@ -123,8 +123,16 @@ void PlainCloth<T>::run(const Call& call, const StepConstants<T>& constants,
         case Pass::sheet_normal: return sheet_normals(call, begin, end);
         case Pass::mesh_normal: return mesh_normals(call, begin, end);
         case Pass::sheet_strain: return sheet_strains(call, constants, begin, end);
-        case Pass::list_strain: return list_strains(call, begin, end);
-        default: return;  // of the constraint solver, see solver_state.hpp
+        case Pass::list_strain:
+            return list_strains(call, begin, end);
+            // Those of bodies are PlainBody's, those of solvers SolverState's. A pass of cloths that has no
+            // case here is an error of the build.
+#define CLOTH_PASS(name, ...)
+#define PASS(name, ...) \
+    case Pass::name: {  \
+        return;         \
+    }
+#include "solve/passes.def"
     }
 }
 
