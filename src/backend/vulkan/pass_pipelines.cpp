@@ -4,6 +4,7 @@
 
 #include "backend/vulkan/cloth_buffers.hpp"
 #include "backend/vulkan/device_limits.hpp"
+#include "backend/vulkan/layout.hpp"
 #include "backend/vulkan/shader_code.hpp"
 #include "pliant/error.hpp"
 
