@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "backend/host/plain_cloth.hpp"
 #include "backend/vulkan/device_state.hpp"
 #include "pliant/extremes.hpp"
+#include "solve/step_constants.hpp"
 
 namespace pliant::tool {
 namespace {

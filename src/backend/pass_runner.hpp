@@ -9,19 +9,11 @@
 #include <vector>
 
 #include "body/cloth_model.hpp"
-#include "body/collider_motion.hpp"
 #include "pliant/options.hpp"
 #include "solve/pass.hpp"
+#include "solve/step_constants.hpp"
 
 namespace pliant {
-
-/// A hand that pulls at a node by a spring, in the numbers of `grabbed_velocity` of
-/// laws/integration.law.glsl.
-struct GrabInput {
-    std::uint32_t cloth = 0, node = 0;
-    Vec3d target;               ///< m, in the cloth's coordinates
-    double pull = 0, hold = 0;  ///< 1/s, and without unit
-};
 
 /// What changes from frame to frame.
 struct FrameInput {
@@ -46,13 +38,6 @@ struct FrameInput {
                                                           : std::span<const PlacedCollider>{};
     }
 };
-
-/// A collider as a cloth with coordinates of its own sees it.
-inline PlacedCollider seen_from(PlacedCollider placed, Vec3d origin)
-{
-    placed.centre = placed.centre - origin;
-    return placed;
-}
 
 /// A cloth's measures, merged over its nodes; see laws/measure.law.glsl.
 struct MeasureTotals {

@@ -36,6 +36,32 @@ Rotation frame_with_y(Vec3d direction)
     return {cross(y, z), y, z};
 }
 
+// Where a shape is, and how large, before it moves.
+void put(PlacedCollider& placed, const Sphere& sphere)
+{
+    placed.centre = sphere.centre;
+    placed.radius = sphere.radius;
+}
+void put(PlacedCollider& placed, const Plane& plane)
+{
+    placed.centre = plane.point;
+    placed.axes = frame_with_y(plane.normal);
+}
+void put(PlacedCollider& placed, const Box& box)
+{
+    placed.centre = box.centre;
+    placed.axes = rotation_from_degrees(box.rotation);
+    placed.half_size = box.size * 0.5;
+}
+void put(PlacedCollider& placed, const Capsule& capsule)
+{
+    const Vec3d axis = (capsule.end - capsule.start) * 0.5;
+    placed.centre = (capsule.start + capsule.end) * 0.5;
+    placed.axes = frame_with_y(axis);
+    placed.half_size.y = std::sqrt(dot(axis, axis));
+    placed.radius = capsule.radius;
+}
+
 }  // namespace
 
 Rotation rotation_from_degrees(Vec3d degrees)
@@ -80,38 +106,20 @@ RigidMotion motion_at(const std::vector<Keyframe>& keyframes, double time)
 PlacedCollider placed_at(const Collider& collider, double time)
 {
     PlacedCollider placed;
-    const auto take_common = [&](const auto& shape, Vec3d centre) {
-        const RigidMotion motion = motion_at(shape.keyframes, time);
-        placed.centre = centre + motion.offset;
-        placed.friction = shape.friction;
-        placed.response = shape.response;
-        placed.velocity = motion.velocity;
-        placed.spin = motion.spin;
-        placed.moves = !shape.keyframes.empty();
-        return motion.rotation;
-    };
-    using Kind = PlacedCollider::Kind;
-    if (const auto* sphere = std::get_if<Sphere>(&collider)) {
-        placed.kind = Kind::sphere;
-        placed.axes = take_common(*sphere, sphere->centre);
-        placed.radius = sphere->radius;
-    } else if (const auto* plane = std::get_if<Plane>(&collider)) {
-        placed.kind = Kind::plane;
-        const Rotation turn = take_common(*plane, plane->point);
-        placed.axes = compose(turn, frame_with_y(plane->normal));
-    } else if (const auto* box = std::get_if<Box>(&collider)) {
-        placed.kind = Kind::box;
-        const Rotation turn = take_common(*box, box->centre);
-        placed.axes = compose(turn, rotation_from_degrees(box->rotation));
-        placed.half_size = box->size * 0.5;
-    } else if (const auto* capsule = std::get_if<Capsule>(&collider)) {
-        placed.kind = Kind::capsule;
-        const Rotation turn = take_common(*capsule, (capsule->start + capsule->end) * 0.5);
-        const Vec3d axis = (capsule->end - capsule->start) * 0.5;
-        placed.axes = compose(turn, frame_with_y(axis));
-        placed.half_size.y = std::sqrt(dot(axis, axis));
-        placed.radius = capsule->radius;
-    }
+    placed.shape = collider.index();
+    std::visit(
+        [&](const auto& shape) {
+            put(placed, shape);
+            const RigidMotion motion = motion_at(shape.keyframes, time);
+            placed.centre = placed.centre + motion.offset;
+            placed.axes = compose(motion.rotation, placed.axes);
+            placed.friction = shape.friction;
+            placed.response = shape.response;
+            placed.velocity = motion.velocity;
+            placed.spin = motion.spin;
+            placed.moves = !shape.keyframes.empty();
+        },
+        collider);
     return placed;
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <type_traits>
+#include <variant>
 #include <vector>
 
 #include "pliant/scene.hpp"
@@ -28,11 +30,20 @@ struct RigidMotion {
 /// turn); before the first and after the last it stands still.
 RigidMotion motion_at(const std::vector<Keyframe>& keyframes, double time);
 
+/// Which alternative of Collider a shape is.
+template <class Shape>
+inline constexpr std::size_t shape_number = []<class... Shapes>(std::type_identity<std::variant<Shapes...>>) {
+    std::size_t number = 0;
+    (void)((std::is_same_v<Shape, Shapes> || (++number, false)) || ...);
+    return number;
+}(std::type_identity<Collider>{});
+
 /// The shape of a collider at a time, in the world.
 struct PlacedCollider {
-    enum class Kind { sphere, plane, box, capsule } kind = Kind::sphere;
-    Vec3d centre;       ///< m; of a plane: its point
-    Rotation axes;      ///< of a box; a plane's normal is axes[1]; a capsule's axis is axes[1]
+    std::size_t shape = 0;  ///< the alternative of Collider; contact.law.glsl numbers shapes alike
+    Vec3d centre;           ///< m; of a plane: its point
+    Rotation axes{
+        Vec3d{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  ///< of a box; a plane's normal, a capsule's axis: axes[1]
     Vec3d half_size;    ///< m; of a box; of a capsule y is half the distance of its ends
     double radius = 0;  ///< m; of sphere and capsule
     double friction = 0;
@@ -41,6 +52,12 @@ struct PlacedCollider {
     Vec3d spin;              ///< rad/s
     bool moves = false;      ///< has keyframes
     bool lets_rise = false;  ///< nodes that have sunk into it are let out slowly
+
+    template <class Shape>
+    bool is() const
+    {
+        return shape == shape_number<Shape>;
+    }
 };
 PlacedCollider placed_at(const Collider& collider, double time);
 

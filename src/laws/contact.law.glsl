@@ -4,7 +4,7 @@
 // What a kernel knows of a collider at one instant. `kind` and `response` are the same for all nodes.
 struct Collider
 {
-    int kind;           // 0 sphere, 1 plane, 2 box, 3 capsule
+    int kind;           // 0 sphere, 1 plane, 2 box, 3 capsule: the order of the variant Collider (scene.hpp)
     int response;       // 0 Coulomb, 1 as the paper prints it, 2 Coulomb, and nodes that have sunk into it rise
     vec3 centre;        // m; a plane's point
     vec3 axis_x;        // unit vectors of a box; axis_y is a plane's normal and a capsule's direction

@@ -70,7 +70,7 @@ private:
     vk::raii::DescriptorSet shape_set_{nullptr};
 };
 
-constexpr std::uint32_t push_constant_bytes = 80;
+constexpr std::uint32_t push_constant_bytes = 96;
 
 /// Storage buffers of shaders/cloth_nodes.glsl: what is drawn binds some of them, cloth_surface.comp others.
 /// Both together would be more than some devices can bind at once.

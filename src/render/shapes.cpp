@@ -5,6 +5,8 @@
 #include <map>
 #include <numbers>
 
+#include "render/matrix.hpp"
+
 namespace pliant {
 namespace {
 
@@ -102,38 +104,67 @@ ShapeMeshes make_shape_meshes()
 
 ShapePlacement placement_of(const PlacedCollider& collider, double inset)
 {
-    using Kind = PlacedCollider::Kind;
+    const auto drawn_radius = [&](double radius) { return radius - std::min(inset, 0.05 * radius); };
+    const double radius = drawn_radius(collider.radius);
+    const bool is_plane = collider.is<Plane>();
+    // A sphere's turning cannot be seen.
+    const Rotation axes = collider.is<Sphere>() ? PlacedCollider{}.axes : collider.axes;
     Vec3d scale{1, 1, 1}, centre = collider.centre;
-    double stretch = 0;
-    // A sphere's turning cannot be seen, and its axes need not be set.
-    Rotation axes{Vec3d{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    if (collider.kind != Kind::sphere) axes = collider.axes;
-    switch (collider.kind) {
-        case Kind::capsule: stretch = collider.half_size.y; [[fallthrough]];
-        case Kind::sphere: scale = scale * (collider.radius - std::min(inset, 0.05 * collider.radius)); break;
-        case Kind::box: scale = collider.half_size; break;
-        case Kind::plane:
-            scale = Vec3d{board_edge, board_thickness, board_edge} * 0.5;
-            centre = centre - axes[1] * (0.5 * board_thickness);
-            break;
+    double apart = 0;
+    ShapeEnds ends;
+    if (collider.is<Sphere>()) {
+        scale = scale * radius;
+    } else if (collider.is<Capsule>()) {
+        scale = scale * radius;
+        apart = collider.half_size.y;
+    } else if (collider.is<Box>()) {
+        scale = collider.half_size;
+    } else if (is_plane) {
+        scale = Vec3d{board_edge, board_thickness, board_edge} * 0.5;
+        centre = centre - axes[1] * (0.5 * board_thickness);
     }
     const Vec3 x = to_float(axes[0]), y = to_float(axes[1]), z = to_float(axes[2]);
     const Vec3 middle = to_float(centre), size = to_float(scale);
     const std::array<float, 4> porcelain{0.70f, 0.69f, 0.67f, 1.0f}, board{0.36f, 0.39f, 0.42f, 1.0f};
     return {{{{x.x, x.y, x.z, middle.x}, {y.x, y.y, y.z, middle.y}, {z.x, z.y, z.z, middle.z}}},
-            {size.x, size.y, size.z, static_cast<float>(stretch)},
-            collider.kind == Kind::plane ? board : porcelain};
+            {size.x, size.y, size.z, static_cast<float>(apart)},
+            ends,
+            is_plane ? board : porcelain};
+}
+
+// As `placed` of shaders/shape.glsl.
+Vec3d placed_corner(const ShapePlacement& placement, const ShapeVertex& corner)
+{
+    const ShapeEnds& ends = placement.ends;
+    Vec3d unit{double{corner.position[0]}, double{corner.position[1]}, double{corner.position[2]}};
+    if (ends.tilt != 0.0f) {
+        const double y = unit.y + double{ends.tilt} * (1 - std::abs(unit.y));
+        const double around = std::hypot(unit.x, unit.z);
+        const double wider = around > 0 ? std::sqrt(std::max(0.0, 1 - y * y)) / around : 0;
+        unit = {unit.x * wider, y, unit.z * wider};
+    }
+    const double end = corner.half > 0 ? double{ends.upper} : double{ends.lower};
+    const double x = end * unit.x * double{placement.size[0]}, z = end * unit.z * double{placement.size[2]};
+    const double y =
+        end * unit.y * double{placement.size[1]} + double{corner.half} * double{placement.size[3]};
+    const auto along = [&](const std::array<float, 4>& axis) {
+        return double{axis[0]} * x + double{axis[1]} * y + double{axis[2]} * z + double{axis[3]};
+    };
+    return {along(placement.axes[0]), along(placement.axes[1]), along(placement.axes[2])};
 }
 
 ShapeMeshes::Range mesh_of(const PlacedCollider& collider, const ShapeMeshes& meshes)
 {
-    using Kind = PlacedCollider::Kind;
-    return collider.kind == Kind::box || collider.kind == Kind::plane ? meshes.cube : meshes.round;
+    return collider.is<Box>() || collider.is<Plane>() ? meshes.cube : meshes.round;
 }
 
-bool is_ground(const PlacedCollider& collider)
+std::array<Ball, 2> balls_around(const PlacedCollider& collider)
 {
-    return collider.kind == PlacedCollider::Kind::plane && collider.axes[1].y > 0.9999;
+    const Vec3d arm = collider.is<Box>() ? Vec3d{} : collider.axes[1] * collider.half_size.y;
+    const double radius = collider.is<Box>() ? length(collider.half_size) : collider.radius;
+    return {Ball{collider.centre + arm, radius}, Ball{collider.centre - arm, radius}};
 }
+
+bool is_ground(const PlacedCollider& collider) { return collider.is<Plane>() && collider.axes[1].y > 0.9999; }
 
 }  // namespace pliant

@@ -33,10 +33,18 @@ struct ShapeMeshes {
 };
 ShapeMeshes make_shape_meshes();
 
+/// The two halves of a round shape: their radii, and how far the seam between them is turned towards the
+/// upper pole, as the sine of an angle: a cone that touches two spheres of different radii does not touch at
+/// their equators.
+struct ShapeEnds {
+    float upper = 1, lower = 1, tilt = 0, unused = 0;
+};
+
 /// The push constants of shaders/shape.glsl.
 struct ShapePlacement {
     std::array<std::array<float, 4>, 3> axes;
     std::array<float, 4> size;
+    ShapeEnds ends;
     std::array<float, 4> colour;
 };
 
@@ -51,6 +59,15 @@ struct GroundPlacement {
 /// cloth that lies on them cut their corners.
 ShapePlacement placement_of(const PlacedCollider& collider, double inset);
 ShapeMeshes::Range mesh_of(const PlacedCollider& collider, const ShapeMeshes& meshes);
+/// m: where a corner of its mesh is drawn.
+Vec3d placed_corner(const ShapePlacement& placement, const ShapeVertex& corner);
+
+struct Ball {
+    Vec3d centre;       ///< m
+    double radius = 0;  ///< m
+};
+/// Two balls whose hull encloses a collider; of a plane they say nothing.
+std::array<Ball, 2> balls_around(const PlacedCollider& collider);
 
 /// A horizontal plane that faces upwards is the ground.
 bool is_ground(const PlacedCollider& collider);

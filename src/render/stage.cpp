@@ -11,12 +11,7 @@ constexpr double radians_per_degree = std::numbers::pi / 180;
 constexpr double sun_height = 52, sun_side = 48;  // degrees above the floor, and to the left of the camera
 constexpr double cloth_reach = 1.6;  // how far a cloth gets from where it starts, in its own radii
 
-/// A ball around a cloth at rest.
-struct Ball {
-    Vec3d centre;
-    double radius = 0;
-};
-
+/// Around a cloth at rest.
 Ball ball_around(const Cloth& cloth)
 {
     Bounds local;
@@ -50,15 +45,8 @@ double cell_diagonal(const Cloth& cloth, const Ball& ball)
 
 void include_collider(Bounds& bounds, const PlacedCollider& placed)
 {
-    using Kind = PlacedCollider::Kind;
-    switch (placed.kind) {
-        case Kind::sphere: return bounds.include(placed.centre, placed.radius);
-        case Kind::box: return bounds.include(placed.centre, length(placed.half_size));
-        case Kind::capsule:
-            bounds.include(placed.centre + placed.axes[1] * placed.half_size.y, placed.radius);
-            return bounds.include(placed.centre - placed.axes[1] * placed.half_size.y, placed.radius);
-        case Kind::plane: return;  // without bounds
-    }
+    if (placed.is<Plane>()) return;  // without bounds
+    for (const Ball& ball : balls_around(placed)) bounds.include(ball.centre, ball.radius);
 }
 
 /// Everywhere a collider comes, at its keyframes and half-way between.
@@ -137,7 +125,7 @@ Stage make_stage(const Scene& scene)
     for (const Collider& collider : scene.colliders) {
         include_journey(things, collider);
         const PlacedCollider placed = placed_at(collider, 0);
-        if (placed.kind != PlacedCollider::Kind::plane) continue;
+        if (!placed.is<Plane>()) continue;
         stage.has_plane = true;
         if (is_ground(placed)) ground = std::max(ground, placed.centre.y);
     }

@@ -51,16 +51,7 @@ void TouchedArea::include(const PlacedCollider& collider, const ShapeMeshes& mes
     const ShapeMeshes::Range range = mesh_of(collider, meshes);
     const std::span indices(meshes.indices.data() + range.first_index, range.index_count);
     const auto [first, last] = std::ranges::minmax(indices);
-    for (std::uint32_t i = first; i <= last; ++i) {
-        const auto& [at, half, normal] = meshes.vertices[i];
-        const double x = double{at[0]} * double{placement.size[0]},
-                     z = double{at[2]} * double{placement.size[2]},
-                     y = double{at[1]} * double{placement.size[1]} + double{half} * double{placement.size[3]};
-        const auto along = [x, y, z](const std::array<float, 4>& axis) {
-            return double{axis[0]} * x + double{axis[1]} * y + double{axis[2]} * z + double{axis[3]};
-        };
-        include(Vec3d{along(placement.axes[0]), along(placement.axes[1]), along(placement.axes[2])});
-    }
+    for (std::uint32_t i = first; i <= last; ++i) include(placed_corner(placement, meshes.vertices[i]));
 }
 
 void TouchedArea::include(std::span<const Vec3> points)

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "backend/host/plain_cloth.hpp"
 #include "body/collider_motion.hpp"
 #include "files/formatted.hpp"
+#include "solve/step_constants.hpp"
 
 namespace pliant {
 namespace {

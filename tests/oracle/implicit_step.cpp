@@ -14,8 +14,7 @@ namespace {
 long double long_gap(const PlacedCollider& collider, const LongPoint& x)
 {
     const LongPoint from_centre = x - point_of(collider.centre).cast<long double>();
-    if (collider.kind == PlacedCollider::Kind::plane)
-        return from_centre.dot(point_of(collider.axes[1]).cast<long double>());
+    if (collider.is<Plane>()) return from_centre.dot(point_of(collider.axes[1]).cast<long double>());
     return from_centre.norm() - collider.radius;
 }
 double gap_of(const PlacedCollider& collider, const Point& x)

@@ -12,24 +12,6 @@
 
 namespace pliant {
 
-/// Constants of a step in the numbers of a kernel. `grab` is of this cloth, or nothing.
-template <class T>
-SolverConstants<T> make_solver_constants(const ClothModel& model, double step_length,
-                                         const GrabInput& grab = {});
-
-/// What an arena of zeros holds before the first step: the numbers that come from the topology alone.
-template <class T>
-void set_first_numbers(const ClothModel& model, const Hierarchy& hierarchy, T* arena);
-
-/// The parts that the sums of a cloth's solver are left in, by slot.
-struct SumParts {
-    SumParts() = default;
-    SumParts(const ClothModel& model, const Hierarchy& hierarchy);  ///< of a hierarchy that is not empty
-
-    std::array<int, sum_slot_count> counts{};
-    int stride = 0;  ///< the largest of them
-};
-
 template <class T>
 class SolverState {
 public:

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "backend/host/plain_cloth.hpp"
+#include "backend/pass_runner.hpp"
 #include "backend/vulkan/bindings.hpp"
 #include "backend/vulkan/body_buffers.hpp"
 #include "backend/vulkan/device.hpp"

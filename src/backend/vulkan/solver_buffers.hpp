@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "backend/host/solver_state.hpp"
 #include "backend/vulkan/device.hpp"
 #include "body/cloth_model.hpp"
 #include "solve/pass.hpp"
+#include "solve/solver_constants.hpp"
 
 namespace pliant::vulkan {
 

@@ -2,6 +2,7 @@
 layout(push_constant) uniform Placement {
     vec4 axes[3];  // xyz: images of x, y and z; w: the centre's x, y and z
     vec4 size;     // xyz: scale; w: how far the two halves are moved apart along y
+    vec4 ends;     // x, y: radii of the upper and the lower half; z: the seam between them, see ShapeEnds
     vec4 colour;   // linear
 } placement;
 
@@ -10,9 +11,20 @@ vec3 turned(vec3 local)
     return placement.axes[0].xyz * local.x + placement.axes[1].xyz * local.y + placement.axes[2].xyz * local.z;
 }
 
+// A direction of the unit sphere, moved towards the upper pole so that the equator gets to the seam.
+vec3 tilted(vec3 unit)
+{
+    float tilt = placement.ends.z;
+    if (tilt == 0.0) return unit;
+    float y = unit.y + tilt * (1.0 - abs(unit.y)), around = length(unit.xz);
+    return vec3(unit.xz * (around > 0.0 ? sqrt(max(0.0, 1.0 - y * y)) / around : 0.0), y).xzy;
+}
+
 // `corner`.w: -1 or 1, which half it belongs to.
 vec3 placed(vec4 corner)
 {
-    vec3 local = corner.xyz * placement.size.xyz + vec3(0.0, corner.w * placement.size.w, 0.0);
+    vec3 local = tilted(corner.xyz) * placement.size.xyz;
+    local *= corner.w > 0.0 ? placement.ends.x : placement.ends.y;
+    local.y += corner.w * placement.size.w;
     return turned(local) + vec3(placement.axes[0].w, placement.axes[1].w, placement.axes[2].w);
 }

@@ -13,7 +13,7 @@ layout(location = 2) flat out vec4 albedo_and_number;
 void main()
 {
     point = placed(corner);
-    normal = turned(corner_normal);
+    normal = turned(tilted(corner_normal));
     albedo_and_number = vec4(placement.colour.rgb, shape_number(gl_InstanceIndex));
     gl_Position = frame.clip_from_world * vec4(point, 1.0);
 }
