@@ -1,4 +1,7 @@
 // Laws of contact and of air against closed forms.
+#include <random>
+
+#include "solve/step_constants.hpp"
 #include "test_laws.hpp"
 
 namespace pliant::test {
@@ -42,6 +45,71 @@ TEST(Gap, Capsule)
     EXPECT_NEAR(D::gap_capsule({0, 2, 0}, {0, 0, 0}, {0, 1, 0}, 0.5, 0.2).w, 1.3, 1e-14);    // beyond the end
     EXPECT_NEAR(D::gap_capsule({0, -0.6, 0}, {0, 0, 0}, {0, 1, 0}, 0.5, 0.2).w, -0.1,
                 1e-14);  // within the lower cap
+}
+
+/// The least gap to the spheres along the axis, by trying many of them.
+double tapered_gap_by_search(const PlacedCollider& capsule, VD p)
+{
+    const double half = capsule.half_size.y;
+    double least = 1e30;
+    for (int k = 0; k <= 20000; ++k) {
+        const double t = half * (k / 10000.0 - 1);
+        const Vec3d d = Vec3d{p.x, p.y, p.z} - capsule.centre - capsule.axes[1] * t;
+        least = std::min(least, std::sqrt(dot(d, d)) - capsule.radius - capsule.half_size.z * t);
+    }
+    return least;
+}
+
+TEST(Gap, TaperedCapsule)
+{
+    const TaperedCapsule shape{
+        .start = {0.1, -0.2, 0.3}, .end = {0.5, 0.4, 0.2}, .start_radius = 0.3, .end_radius = 0.1};
+    const PlacedCollider placed = placed_at(shape, 0);
+    const auto collider = make_collider<double>(placed);
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> place(-0.5, 0.8);
+    // The search is off by the curvature of the gap, at most 1 / distance, times half a step squared.
+    const double step = placed.half_size.y / 10000;
+    int beside = 0, inside = 0;
+    for (int k = 0; k < 300; ++k) {
+        const VD p{place(random), place(random), place(random)};
+        const auto gap = D::collider_gap(collider, p);
+        EXPECT_NEAR(gap.w, tapered_gap_by_search(placed, p), 10 * step * step)
+            << p.x << " " << p.y << " " << p.z;
+        inside += gap.w < 0;
+        // The normal is the gradient.
+        constexpr double h = 1e-6;
+        const auto slope = [&](VD to) {
+            const auto moved = [&](double s) { return VD{p.x + s * to.x, p.y + s * to.y, p.z + s * to.z}; };
+            return (D::collider_gap(collider, moved(h)).w - D::collider_gap(collider, moved(-h)).w) / (2 * h);
+        };
+        const bool on_axis = std::abs(gap.w) < 1e-3;
+        if (!on_axis) {
+            EXPECT_NEAR(gap.x, slope({1, 0, 0}), 1e-7);
+            EXPECT_NEAR(gap.y, slope({0, 1, 0}), 1e-7);
+            EXPECT_NEAR(gap.z, slope({0, 0, 1}), 1e-7);
+        }
+        // On the cone, the normal leans by the sine of half the angle at its tip.
+        const double along = gap.x * placed.axes[1].x + gap.y * placed.axes[1].y + gap.z * placed.axes[1].z;
+        beside += std::abs(along + placed.half_size.z) < 1e-12;
+    }
+    EXPECT_GT(beside, 30);
+    EXPECT_LT(beside, 270);
+    EXPECT_GT(inside, 10);
+    // On the axis beyond an end, and with equal ends, where it is a capsule.
+    EXPECT_NEAR(
+        D::gap_tapered_capsule({0, 2, 0}, {0, 0, 0}, {0, 1, 0}, 0.5, 0.2, 0.1, 0.1 / std::sqrt(0.99)).w,
+        1.5 - 0.25, 1e-14);
+    EXPECT_NEAR(D::gap_tapered_capsule({0, -0.3, 0}, {0, 0, 0}, {0, 1, 0}, 0.5, 0.2, 0, 0).w, -0.2, 1e-14);
+}
+
+TEST(Gap, TaperedCapsuleOfWhichOneSphereContainsTheOtherIsThatSphere)
+{
+    const TaperedCapsule shape{
+        .start = {0, 0, 0}, .end = {0.1, 0, 0}, .start_radius = 0.4, .end_radius = 0.3};
+    const auto collider = make_collider<double>(placed_at(shape, 0));
+    for (const VD p : {VD{1, 0, 0}, VD{-1, 0.3, 0}, VD{0.05, 0, 0.1}, VD{0, 0, 0}})
+        EXPECT_NEAR(D::collider_gap(collider, p).w, length(p) - 0.4, 1e-14);
 }
 
 TEST(Gap, BoxFaceEdgeCornerAndInside)

@@ -81,6 +81,10 @@ Scene scene_of(const PassCase& c)
                       .radius = 0.05,
                       .keyframes = {{0, {0, 0, 0}, {0, 0, 0}}, {1, {0, 0.1, 0}, {0, 90, 0}}}});
     scene.add(Sphere{.centre = {0.35, 0, 0.3}, .radius = 0.06, .response = ContactResponse::paper});
+    scene.add(TaperedCapsule{.start = {-0.35, -0.02, -0.3},
+                             .end = {-0.15, 0.02, -0.25},
+                             .start_radius = 0.03,
+                             .end_radius = 0.07});
     return scene;
 }
 

@@ -312,7 +312,17 @@ struct Capsule {
     ContactResponse response = ContactResponse::coulomb;
     std::vector<Keyframe> keyframes = {};
 };
-using Collider = std::variant<Sphere, Plane, Box, Capsule>;
+/// A capsule that is thicker at one end, as an arm or a finger: the hull of two spheres. Where one sphere
+/// contains the other, it is that sphere.
+struct TaperedCapsule {
+    Vec3d start = {}, end = {};  ///< m, the centres of the two spheres
+    double start_radius = 0.1;   ///< m
+    double end_radius = 0.05;    ///< m
+    double friction = 0.3;
+    ContactResponse response = ContactResponse::coulomb;
+    std::vector<Keyframe> keyframes = {};
+};
+using Collider = std::variant<Sphere, Plane, Box, Capsule, TaperedCapsule>;
 
 /// Moving air; forces per triangle by its velocity against the air. Off while `density` is 0.
 struct Air {

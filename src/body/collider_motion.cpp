@@ -61,6 +61,22 @@ void put(PlacedCollider& placed, const Capsule& capsule)
     placed.half_size.y = std::sqrt(dot(axis, axis));
     placed.radius = capsule.radius;
 }
+void put(PlacedCollider& placed, const TaperedCapsule& capsule)
+{
+    const Vec3d axis = (capsule.end - capsule.start) * 0.5;
+    const double half_length = std::sqrt(dot(axis, axis));
+    const double more = (capsule.end_radius - capsule.start_radius) * 0.5;
+    placed.axes = frame_with_y(axis);
+    if (std::abs(more) >= half_length) {  // one sphere contains the other
+        placed.centre = more > 0 ? capsule.end : capsule.start;
+        placed.radius = std::max(capsule.start_radius, capsule.end_radius);
+        return;
+    }
+    const double growth = more / half_length;  // of the radius along the axis; see gap_tapered_capsule
+    placed.centre = (capsule.start + capsule.end) * 0.5;
+    placed.half_size = {growth / std::sqrt(1 - growth * growth), half_length, growth};
+    placed.radius = (capsule.start_radius + capsule.end_radius) * 0.5;
+}
 
 }  // namespace
 

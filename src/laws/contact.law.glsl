@@ -4,14 +4,14 @@
 // What a kernel knows of a collider at one instant. `kind` and `response` are the same for all nodes.
 struct Collider
 {
-    int kind;           // 0 sphere, 1 plane, 2 box, 3 capsule: the order of the variant Collider (scene.hpp)
+    int kind;           // 0 sphere, 1 plane, 2 box, 3 capsule, 4 tapered capsule: the order of the variant Collider (scene.hpp)
     int response;       // 0 Coulomb, 1 as the paper prints it, 2 Coulomb, and nodes that have sunk into it rise
     vec3 centre;        // m; a plane's point
     vec3 axis_x;        // unit vectors of a box; axis_y is a plane's normal and a capsule's direction
     vec3 axis_y;
     vec3 axis_z;
-    vec3 half_size;     // m; of a capsule, y is half the distance of its ends
-    real radius;        // m
+    vec3 half_size;     // m; of a capsule, y is half the distance of its ends; x and z: see gap_tapered_capsule
+    real radius;        // m; of a tapered capsule, in the middle
     real friction;      // Coulomb's mu
     vec3 velocity;      // m/s
     vec3 spin;          // rad/s
@@ -39,6 +39,22 @@ LAW vec4 gap_capsule(vec3 p, vec3 centre, vec3 axis_direction, real half_length,
     real along = dot3(p - centre, axis_direction);
     along = choose(along > half_length, half_length, choose(along < -half_length, -half_length, along));
     return gap_sphere(p, centre + axis_direction * along, radius);
+}
+
+// The hull of two spheres holds a sphere at every point of the segment: centre c + t a, radius r + s t. The gap to it,
+//   f(t) = sqrt((t - u)^2 + w^2) - r - s t,    u = (p - c) . a,  w = |p - c - u a|,
+// is convex, and least at t = u + s w / sqrt(1 - s^2), or at the end next to it. `growth` is s, `lean` is s / sqrt(1 - s^2).
+LAW vec4 gap_tapered_capsule(vec3 p, vec3 centre, vec3 axis_direction, real half_length, real radius, real growth, real lean)
+{
+    vec3 d = p - centre;
+    real along = dot3(d, axis_direction);
+    vec3 across = d - axis_direction * along;
+    real across2 = dot3(across, across);
+    real t = along + lean * (across2 * inverse_sqrt(across2));
+    t = choose(t > half_length, half_length, choose(t < -half_length, -half_length, t));
+    vec3 nearest = centre + axis_direction * t;
+    real radius_there = radius + growth * t;
+    return gap_sphere(p, nearest, radius_there);
 }
 
 // Outside, the distance to the nearest point of the box; inside, the way out through the nearest face.
@@ -73,7 +89,9 @@ LAW vec4 collider_gap(Collider collider, vec3 p)
     if (collider.kind == 1) return gap_plane(p, collider.centre, collider.axis_y);
     if (collider.kind == 2)
         return gap_box(p, collider.centre, collider.axis_x, collider.axis_y, collider.axis_z, collider.half_size);
-    return gap_capsule(p, collider.centre, collider.axis_y, collider.half_size.y, collider.radius);
+    if (collider.kind == 3) return gap_capsule(p, collider.centre, collider.axis_y, collider.half_size.y, collider.radius);
+    return gap_tapered_capsule(p, collider.centre, collider.axis_y, collider.half_size.y, collider.radius,
+                               collider.half_size.z, collider.half_size.x);
 }
 
 // v_s = v_c + w x (p - c)

@@ -117,6 +117,12 @@ ShapePlacement placement_of(const PlacedCollider& collider, double inset)
     } else if (collider.is<Capsule>()) {
         scale = scale * radius;
         apart = collider.half_size.y;
+    } else if (collider.is<TaperedCapsule>()) {
+        const double growth = collider.half_size.z;
+        apart = collider.half_size.y;
+        ends = {static_cast<float>(drawn_radius(collider.radius + growth * apart)),
+                static_cast<float>(drawn_radius(collider.radius - growth * apart)),
+                static_cast<float>(-growth)};
     } else if (collider.is<Box>()) {
         scale = collider.half_size;
     } else if (is_plane) {
@@ -147,10 +153,11 @@ Vec3d placed_corner(const ShapePlacement& placement, const ShapeVertex& corner)
     const double x = end * unit.x * double{placement.size[0]}, z = end * unit.z * double{placement.size[2]};
     const double y =
         end * unit.y * double{placement.size[1]} + double{corner.half} * double{placement.size[3]};
-    const auto along = [&](const std::array<float, 4>& axis) {
-        return double{axis[0]} * x + double{axis[1]} * y + double{axis[2]} * z + double{axis[3]};
+    const auto& [ax, ay, az] = placement.axes;
+    const auto part = [&](std::size_t k) {
+        return double{ax[k]} * x + double{ay[k]} * y + double{az[k]} * z;
     };
-    return {along(placement.axes[0]), along(placement.axes[1]), along(placement.axes[2])};
+    return Vec3d{part(0), part(1), part(2)} + Vec3d{double{ax[3]}, double{ay[3]}, double{az[3]}};
 }
 
 ShapeMeshes::Range mesh_of(const PlacedCollider& collider, const ShapeMeshes& meshes)
@@ -162,7 +169,8 @@ std::array<Ball, 2> balls_around(const PlacedCollider& collider)
 {
     const Vec3d arm = collider.is<Box>() ? Vec3d{} : collider.axes[1] * collider.half_size.y;
     const double radius = collider.is<Box>() ? length(collider.half_size) : collider.radius;
-    return {Ball{collider.centre + arm, radius}, Ball{collider.centre - arm, radius}};
+    const double more = collider.is<TaperedCapsule>() ? collider.half_size.z * collider.half_size.y : 0;
+    return {Ball{collider.centre + arm, radius + more}, Ball{collider.centre - arm, radius - more}};
 }
 
 bool is_ground(const PlacedCollider& collider) { return collider.is<Plane>() && collider.axes[1].y > 0.9999; }

@@ -52,7 +52,7 @@ inline constexpr std::array shape_keys{"sheet", "mesh", "disc"};
 inline constexpr std::array body_shape_keys{"mesh", "icosphere", "uv_sphere", "torus",
                                             "box",  "capsule",   "blob"};
 inline constexpr std::array pin_keys{"index", "corner", "edge", "box"};
-inline constexpr std::array collider_keys{"sphere", "plane", "box", "capsule"};
+inline constexpr std::array collider_keys{"sphere", "plane", "box", "capsule", "tapered_capsule"};
 /// Numbers of the summary that a scene may check.
 inline constexpr std::array check_names{"max_stretch",
                                         "max_stretch_peak",
@@ -349,6 +349,15 @@ void fields(auto& at, Is<Capsule> auto& capsule)
     at.vector("start", capsule.start, coordinate, "m", required);
     at.vector("end", capsule.end, coordinate, "m", required);
     at.number("radius", capsule.radius, extent, "m", required);
+    contact_fields(at, capsule);
+}
+
+void fields(auto& at, Is<TaperedCapsule> auto& capsule)
+{
+    at.vector("start", capsule.start, coordinate, "m", required);
+    at.vector("end", capsule.end, coordinate, "m", required);
+    at.number("start_radius", capsule.start_radius, extent, "m", required);
+    at.number("end_radius", capsule.end_radius, extent, "m", required);
     contact_fields(at, capsule);
 }
 
