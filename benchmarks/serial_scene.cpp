@@ -63,7 +63,7 @@ std::vector<std::uint32_t> vertices_of_nodes(const ClothModel& model)
 {
     std::vector<std::uint32_t> vertices(model.node_count());
     for (std::uint32_t k = 0; k < model.node_count(); ++k)
-        vertices[model.node_of_vertex.empty() ? k : model.node_of_vertex[k]] = k;
+        vertices[model.shape.node_of_vertex.empty() ? k : model.shape.node_of_vertex[k]] = k;
     return vertices;
 }
 
@@ -84,22 +84,22 @@ Cloth cloth_of(const ClothModel& model, const Scene& scene, const std::vector<st
     add_colliders(scene, cloth);
     cloth.nodes.resize(model.node_count());
     for (std::uint32_t k = 0; k < model.node_count(); ++k) {
-        const Vec3 v = model.velocities[k];
-        cloth.nodes[vertices[k]] = {vector_of(to_double(model.positions[k]) + model.origin),
+        const Vec3 v = model.shape.velocities[k];
+        cloth.nodes[vertices[k]] = {vector_of(to_double(model.shape.positions[k]) + model.shape.origin),
                                     {v.x, v.y, v.z},
                                     {},
-                                    static_cast<float>(model.inverse_mass(k))};
+                                    static_cast<float>(model.masses.inverse(k))};
     }
-    cloth.springs.reserve(model.spring_count());
-    if (model.node_centric()) {
+    cloth.springs.reserve(model.springs.count);
+    if (model.plan.node_centric) {
         for_each_sheet_spring(
-            *model.sheet, [&](std::uint32_t i, std::uint32_t j, const SheetNeighbour& neighbour) {
+            *model.shape.sheet, [&](std::uint32_t i, std::uint32_t j, const SheetNeighbour& neighbour) {
                 cloth.springs.push_back(
                     spring_of(model, i, j, neighbour.spring_class,
-                              model.sheet->rest_lengths[static_cast<std::size_t>(neighbour.rest)]));
+                              model.shape.sheet->rest_lengths[static_cast<std::size_t>(neighbour.rest)]));
             });
     } else {
-        for (const pliant::Spring& spring : model.springs)
+        for (const pliant::Spring& spring : model.springs.list)
             cloth.springs.push_back(spring_of(model, vertices[spring.i], vertices[spring.j],
                                               spring.spring_class, spring.rest_length));
         std::sort(cloth.springs.begin(), cloth.springs.end(),
@@ -125,7 +125,7 @@ Body body_of(const Scene& scene)
     const std::vector<std::uint32_t> vertices = vertices_of_nodes(model);
     Body body;
     body.skin = cloth_of(model, scene, vertices);
-    for (const Triangle& t : model.triangles())
+    for (const Triangle& t : model.shape.triangles())
         body.triangles.push_back({vertices[t[0]], vertices[t[1]], vertices[t[2]]});
     body.wanted_volume = volume_of(body);
     return body;

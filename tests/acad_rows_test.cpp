@@ -45,10 +45,10 @@ Scene strip(bool on_mesh, double threshold = activate_at)
 /// The model's positions, with the strip pulled apart by 12 % of a spring's length behind a row.
 std::vector<Vec3> pulled_apart(const ClothModel& model, std::uint32_t row, float part = 0.12f)
 {
-    std::vector<Vec3> positions = model.positions;
-    const Vec3 a = positions[model.node(0)], b = positions[model.node(columns)];
+    std::vector<Vec3> positions = model.shape.positions;
+    const Vec3 a = positions[model.shape.node(0)], b = positions[model.shape.node(columns)];
     for (std::uint32_t vertex = (row + 1) * columns; vertex < positions.size(); ++vertex) {
-        const std::uint32_t i = model.node(vertex);
+        const std::uint32_t i = model.shape.node(vertex);
         positions[i].x += part * (b.x - a.x);
         positions[i].y += part * (b.y - a.y);
         positions[i].z += part * (b.z - a.z);
@@ -82,17 +82,18 @@ std::set<std::size_t> expected_rows(const ClothModel& model, const std::vector<V
         const Vec3 a = positions[i], b = positions[j];
         const double length = std::hypot(double{b.x} - a.x, double{b.y} - a.y, double{b.z} - a.z);
         if (length < (1 + marked_at) * rest) return;
-        if (model.is_sheet())
+        if (model.shape.is_sheet())
             for (std::size_t row = i / columns; row <= i / columns + 2; ++row) expected.insert(row);
         else
             expected.insert({i / sum_columns, j / sum_columns});
     };
-    if (model.is_sheet())
-        for_each_sheet_spring(*model.sheet, [&](std::uint32_t i, std::uint32_t j, const SheetNeighbour& n) {
-            look(i, j, model.sheet->rest_lengths[static_cast<std::size_t>(n.rest)]);
-        });
+    if (model.shape.is_sheet())
+        for_each_sheet_spring(
+            *model.shape.sheet, [&](std::uint32_t i, std::uint32_t j, const SheetNeighbour& n) {
+                look(i, j, model.shape.sheet->rest_lengths[static_cast<std::size_t>(n.rest)]);
+            });
     else
-        for (const Spring& s : model.springs) look(s.i, s.j, s.rest_length);
+        for (const Spring& s : model.springs.list) look(s.i, s.j, s.rest_length);
     return expected;
 }
 
@@ -119,7 +120,10 @@ protected:
           idle_model(idle_scene.cloth(0), idle_scene)
     {
     }
-    std::size_t row_of(std::size_t node) const { return node / (model.is_sheet() ? columns : sum_columns); }
+    std::size_t row_of(std::size_t node) const
+    {
+        return node / (model.shape.is_sheet() ? columns : sum_columns);
+    }
 
     Scene scene, idle_scene;
     ClothModel model, idle_model;  ///< the second never has a constraint
@@ -129,7 +133,7 @@ TEST_P(AcadRows, AreThoseThatAMarkedSpringReaches)
 {
     const std::vector<Vec3> start = pulled_apart(model, 20);
     const std::set<std::size_t> expected = expected_rows(model, start);
-    ASSERT_LT(expected.size(), model.is_sheet() ? 4U : 6U);  // of 64 rows, of 9 groups
+    ASSERT_LT(expected.size(), model.shape.is_sheet() ? 4U : 6U);  // of 64 rows, of 9 groups
     for (const Backend backend : test::backends()) {
         const auto runner = test::make_runner(backend, model);
         EXPECT_EQ(step_from(*runner, model, start).active, columns) << name_of(backend);
@@ -201,7 +205,7 @@ TEST_P(AcadRows, AreThoseNearTheThresholdToo)
     std::vector<Vec3> start = pulled_apart(model, 20);
     const std::vector<Vec3> less = pulled_apart(model, 40, 0.09f);
     for (std::uint32_t i = 0; i < start.size(); ++i) {
-        const Vec3 a = start[i], b = less[i], c = model.positions[i];
+        const Vec3 a = start[i], b = less[i], c = model.shape.positions[i];
         start[i] = {a.x + (b.x - c.x), a.y + (b.y - c.y), a.z + (b.z - c.z)};
     }
     for (const Backend backend : test::backends()) {
@@ -218,11 +222,11 @@ TEST_P(AcadRows, AreThoseAtASpringThatAPinHolds)
     const ClothModel held(scene.cloth(0), scene);
     const std::vector<Vec3> start = pulled_apart(held, 0);
     std::set<std::size_t> expected;
-    if (held.is_sheet())
+    if (held.shape.is_sheet())
         expected = expected_rows(held, start);
     else
         for (std::uint32_t vertex = columns; vertex < 2 * columns; ++vertex)
-            expected.insert(held.node(vertex) / sum_columns);
+            expected.insert(held.shape.node(vertex) / sum_columns);
     for (const Backend backend : test::backends()) {
         const auto runner = test::make_runner(backend, held);
         EXPECT_GE(step_from(*runner, held, start).active, columns) << name_of(backend);

@@ -23,12 +23,12 @@ TEST(ConstraintRows, LeaveOutWhatTwoPinsHold)
     scene.add(cloth);
     const ClothModel model(scene.cloth(0), scene);
     std::size_t held = 0, free = 0;
-    for (const Spring& spring : model.springs)
+    for (const Spring& spring : model.springs.list)
         if (spring.spring_class != SpringClass::bend)
-            ++(model.inverse_mass(spring.i) > 0 || model.inverse_mass(spring.j) > 0 ? free : held);
+            ++(model.masses.inverse(spring.i) > 0 || model.masses.inverse(spring.j) > 0 ? free : held);
     EXPECT_EQ(held, 4u);  // along the edge
     EXPECT_EQ(model.hierarchy.constraints.constraints, free);
-    EXPECT_EQ(model.hierarchy.constraints.springs, model.springs.size());
+    EXPECT_EQ(model.hierarchy.constraints.springs, model.springs.list.size());
 }
 
 TEST(ConstraintRows, AreScannedLevelByLevel)
@@ -132,7 +132,9 @@ TEST(Pins, OfAClothThatIsThrownStandStill)
         scene.add(cloth);
         const ClothModel model(scene.cloth(0), scene);
         for (std::uint32_t vertex = 0; vertex < 20; ++vertex)
-            EXPECT_EQ(model.velocities[model.node(vertex)], vertex == 7 ? Vec3{} : (Vec3{1, 2, 3})) << vertex;
+            EXPECT_EQ(model.shape.velocities[model.shape.node(vertex)],
+                      vertex == 7 ? Vec3{} : (Vec3{1, 2, 3}))
+                << vertex;
     }
 }
 

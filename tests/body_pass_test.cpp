@@ -87,11 +87,12 @@ ClothModel shaken_model(const Scene& scene)
     ClothModel model(scene.cloth(0), scene);
     std::mt19937 engine(11);
     std::uniform_real_distribution<float> unit(-1, 1);
-    const float shake = 0.05f * static_cast<float>(model.springs.front().rest_length);
-    for (std::size_t i = 0; i < model.positions.size(); ++i) {
-        Vec3& x = model.positions[i];
+    const float shake = 0.05f * static_cast<float>(model.springs.list.front().rest_length);
+    for (std::size_t i = 0; i < model.shape.positions.size(); ++i) {
+        Vec3& x = model.shape.positions[i];
         x = {x.x + shake * unit(engine), x.y + shake * unit(engine), x.z + shake * unit(engine)};
-        if (model.inverse_mass(i) > 0) model.velocities[i] = {unit(engine), unit(engine), unit(engine)};
+        if (model.masses.inverse(i) > 0)
+            model.shape.velocities[i] = {unit(engine), unit(engine), unit(engine)};
     }
     return model;
 }
@@ -110,8 +111,8 @@ Results results_of(PassRunner& runner, const ClothModel& model, const Scene& sce
     std::vector<std::vector<Vec3>> attached(1);
     std::vector<std::vector<VolumeGoal>> goals(1);
     for (std::uint32_t s = 1; s <= steps; ++s) {
-        for (const AttachedNode& a : model.attached) {
-            const Vec3 x = model.positions[a.node];
+        for (const AttachedNode& a : model.attachments.nodes) {
+            const Vec3 x = model.shape.positions[a.node];
             attached[0].push_back({x.x + static_cast<float>(s * dt), x.y, x.z});
         }
         goals[0].push_back(model.body->goal_at(0, s * dt));
@@ -151,7 +152,7 @@ TEST_P(BodyPassParity, AllBackendsAgree)
     const Results exact = results_of(*make_reference_runner({&model, 1}), model, scene);
     const double rounding = 0x1p-24;
     double least_mass = 1e30;
-    for (const double m : model.masses) least_mass = std::min(least_mass, m);
+    for (const double m : model.masses.kg) least_mass = std::min(least_mass, m);
     const double velocity_tolerance = 2 * 2 * 40 * 1000 * rounding * dt / least_mass + 256 * rounding;
     const auto expect_near = [&](Resource resource, double tolerance) {
         EXPECT_LE(test::largest_difference(expected.at(resource), exact.at(resource)), tolerance)

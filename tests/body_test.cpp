@@ -24,10 +24,10 @@ ClothModel model_of(const Cloth& cloth)
 TEST(Sheet, HasTheSpringsOfThePaper)
 {
     // errata: 34 x 34 has 6,598 springs with all classes, 32 x 32 has 5,826.
-    EXPECT_EQ(model_of(test::flat_sheet(34, 34)).spring_count(), 6598u);
-    EXPECT_EQ(model_of(test::flat_sheet(32, 32)).spring_count(), 5826u);
-    EXPECT_EQ(model_of(test::flat_sheet(34, 34)).measured_spring_count(), 4422u);
-    EXPECT_EQ(model_of(test::flat_sheet(2, 2)).spring_count(), 6u);
+    EXPECT_EQ(model_of(test::flat_sheet(34, 34)).springs.count, 6598u);
+    EXPECT_EQ(model_of(test::flat_sheet(32, 32)).springs.count, 5826u);
+    EXPECT_EQ(model_of(test::flat_sheet(34, 34)).springs.measured_count, 4422u);
+    EXPECT_EQ(model_of(test::flat_sheet(2, 2)).springs.count, 6u);
 }
 
 TEST(Sheet, ListsExactlyTheSpringsItCounts)
@@ -36,13 +36,14 @@ TEST(Sheet, ListsExactlyTheSpringsItCounts)
         Cloth cloth = test::flat_sheet(rows, columns);
         cloth.formulation = Formulation::spring_list;
         const ClothModel model = model_of(cloth);
-        EXPECT_EQ(model.springs.size(), model.spring_count());
-        EXPECT_EQ(model.neighbours.entries.size(), 2 * model.spring_count());
-        for (std::size_t s = 1; s < model.springs.size(); ++s)
-            EXPECT_LT(std::pair(model.springs[s - 1].i, model.springs[s - 1].j),
-                      std::pair(model.springs[s].i, model.springs[s].j));
-        for (const Spring& spring : model.springs) {
-            const Vec3d d = to_double(model.positions[spring.i]) - to_double(model.positions[spring.j]);
+        EXPECT_EQ(model.springs.list.size(), model.springs.count);
+        EXPECT_EQ(model.springs.neighbours.entries.size(), 2 * model.springs.count);
+        for (std::size_t s = 1; s < model.springs.list.size(); ++s)
+            EXPECT_LT(std::pair(model.springs.list[s - 1].i, model.springs.list[s - 1].j),
+                      std::pair(model.springs.list[s].i, model.springs.list[s].j));
+        for (const Spring& spring : model.springs.list) {
+            const Vec3d d =
+                to_double(model.shape.positions[spring.i]) - to_double(model.shape.positions[spring.j]);
             EXPECT_NEAR(std::sqrt(dot(d, d)), spring.rest_length, 1e-6);
         }
     }
@@ -52,9 +53,9 @@ TEST(Sheet, SharesItsMass)
 {
     const ClothModel model =
         model_of(Cloth::sheet({.rows = 7, .columns = 5, .width = 2, .height = 3, .density = 0.3}));
-    EXPECT_NEAR(std::accumulate(model.masses.begin(), model.masses.end(), 0.0), 0.3 * 6, 1e-6);
-    EXPECT_EQ(model.masses.front(), model.masses.back());
-    EXPECT_NEAR(model_of(Cloth::sheet({.rows = 2, .columns = 2, .node_mass = 0.25})).masses[3], 0.25, 0);
+    EXPECT_NEAR(std::accumulate(model.masses.kg.begin(), model.masses.kg.end(), 0.0), 0.3 * 6, 1e-6);
+    EXPECT_EQ(model.masses.kg.front(), model.masses.kg.back());
+    EXPECT_NEAR(model_of(Cloth::sheet({.rows = 2, .columns = 2, .node_mass = 0.25})).masses.kg[3], 0.25, 0);
 }
 
 TEST(Sheet, PinsCornersEdgesIndicesAndRegions)
@@ -64,7 +65,7 @@ TEST(Sheet, PinsCornersEdgesIndicesAndRegions)
     const ClothModel model = model_of(cloth);
     for (std::uint32_t r = 0; r < 4; ++r)
         for (std::uint32_t c = 0; c < 5; ++c)
-            EXPECT_EQ(model.inverse_mass(5 * r + c) == 0, (r == 3 && c == 4) || c == 0 || r == 0)
+            EXPECT_EQ(model.masses.inverse(5 * r + c) == 0, (r == 3 && c == 4) || c == 0 || r == 0)
                 << r << ", " << c;
 }
 
@@ -86,20 +87,20 @@ TEST(Sheet, LiesWhereItIsPut)
     cloth.position = {1, 2, 3};
     cloth.rotation = {90, 0, 0};  // about x: z turns to -y, so that row 0 ("top") is up
     const ClothModel model = model_of(cloth);
-    EXPECT_NEAR(model.positions[0].x, 0, 1e-6);
-    EXPECT_NEAR(model.positions[0].y, 4, 1e-6);
-    EXPECT_NEAR(model.positions[0].z, 3, 1e-6);
-    EXPECT_NEAR(model.positions[8].y, 0, 1e-6);
+    EXPECT_NEAR(model.shape.positions[0].x, 0, 1e-6);
+    EXPECT_NEAR(model.shape.positions[0].y, 4, 1e-6);
+    EXPECT_NEAR(model.shape.positions[0].z, 3, 1e-6);
+    EXPECT_NEAR(model.shape.positions[8].y, 0, 1e-6);
 }
 
 TEST(Sheet, TrianglesCoverItFacingUp)
 {
     const ClothModel model = model_of(test::flat_sheet(4, 6, 2, 3));
-    ASSERT_EQ(model.triangles().size(), model.triangle_count());
+    ASSERT_EQ(model.shape.triangles().size(), model.shape.triangle_count());
     double area = 0;
-    for (const Triangle& t : model.triangles()) {
-        const Vec3d a = to_double(model.positions[t[0]]), b = to_double(model.positions[t[1]]),
-                    c = to_double(model.positions[t[2]]);
+    for (const Triangle& t : model.shape.triangles()) {
+        const Vec3d a = to_double(model.shape.positions[t[0]]), b = to_double(model.shape.positions[t[1]]),
+                    c = to_double(model.shape.positions[t[2]]);
         const Vec3d n = cross(b - a, c - a);
         EXPECT_GT(n.y, 0);
         area += 0.5 * n.y;
@@ -111,10 +112,10 @@ TEST(Mesh, EdgesAreStructuralAndOppositeVerticesBend)
 {
     SurfaceMesh quad{{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {1, 0, 1}}, {{0, 2, 1}, {1, 2, 3}}};
     const ClothModel model = model_of(Cloth::mesh(quad, {.density = 0.6}));
-    ASSERT_EQ(model.springs.size(), 6u);
-    const std::vector<std::uint32_t>& node = model.node_of_vertex;
+    ASSERT_EQ(model.springs.list.size(), 6u);
+    const std::vector<std::uint32_t>& node = model.shape.node_of_vertex;
     int bends = 0;
-    for (const Spring& spring : model.springs)
+    for (const Spring& spring : model.springs.list)
         if (spring.spring_class == SpringClass::bend) {
             ++bends;
             EXPECT_EQ(std::minmax(node[0], node[3]), std::minmax(spring.i, spring.j));
@@ -122,22 +123,22 @@ TEST(Mesh, EdgesAreStructuralAndOppositeVerticesBend)
             EXPECT_NEAR(spring.rest_length, std::sqrt(2.0), 1e-12);
         }
     EXPECT_EQ(bends, 1);
-    EXPECT_NEAR(model.masses[node[0]], 0.1, 1e-7);  // a third of half the square
-    EXPECT_NEAR(model.masses[node[1]], 0.2, 1e-7);
-    EXPECT_EQ(model.measured_spring_count(), 5u);
+    EXPECT_NEAR(model.masses.kg[node[0]], 0.1, 1e-7);  // a third of half the square
+    EXPECT_NEAR(model.masses.kg[node[1]], 0.2, 1e-7);
+    EXPECT_EQ(model.springs.measured_count, 5u);
 }
 
 TEST(Mesh, ADiscIsAMesh)
 {
     const ClothModel model = model_of(Cloth::disc({.radius = 0.5, .rings = 12, .density = 0.4}));
-    EXPECT_FALSE(model.is_sheet());
+    EXPECT_FALSE(model.shape.is_sheet());
     EXPECT_EQ(model.node_count(), 1 + 3u * 12 * 13);
-    EXPECT_EQ(model.triangle_count(), 6u * 12 * 12);
+    EXPECT_EQ(model.shape.triangle_count(), 6u * 12 * 12);
     double mass = 0;
-    for (const double m : model.masses) mass += m;
+    for (const double m : model.masses.kg) mass += m;
     EXPECT_NEAR(mass, 0.4 * 0.5 * 72 * 0.25 * std::sin(2 * std::numbers::pi / 72),
-                1e-6);                                                   // a 72-sided polygon
-    EXPECT_NEAR(model.positions[model.node_count() - 72].x, 0.5, 1e-7);  // where the hem begins
+                1e-6);                                                         // a 72-sided polygon
+    EXPECT_NEAR(model.shape.positions[model.node_count() - 72].x, 0.5, 1e-7);  // where the hem begins
 }
 
 TEST(Mesh, RefusesAVertexWithoutMass)

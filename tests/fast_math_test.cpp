@@ -45,19 +45,20 @@ std::vector<double> force_scales(const ClothModel& model)
     std::vector<double> scales(model.node_count(), 0.0);
     const auto add = [&](std::uint32_t i, std::uint32_t j, SpringClass of, double rest_length) {
         const auto k = static_cast<std::size_t>(of);
-        const Vec3d d = at(model.positions, j) - at(model.positions, i),
-                    v = at(model.velocities, j) - at(model.velocities, i);
+        const Vec3d d = at(model.shape.positions, j) - at(model.shape.positions, i),
+                    v = at(model.shape.velocities, j) - at(model.shape.velocities, i);
         const double scale = model.parameters.stiffness[k] * (std::sqrt(dot(d, d)) + rest_length) +
                              model.parameters.spring_damping[k] * std::sqrt(dot(v, v));
         scales[i] += scale;
         scales[j] += scale;
     };
-    if (model.node_centric())
-        for_each_sheet_spring(*model.sheet, [&](std::uint32_t i, std::uint32_t j, const SheetNeighbour& n) {
-            add(i, j, n.spring_class, model.sheet->rest_lengths[static_cast<std::size_t>(n.rest)]);
-        });
+    if (model.plan.node_centric)
+        for_each_sheet_spring(
+            *model.shape.sheet, [&](std::uint32_t i, std::uint32_t j, const SheetNeighbour& n) {
+                add(i, j, n.spring_class, model.shape.sheet->rest_lengths[static_cast<std::size_t>(n.rest)]);
+            });
     else
-        for (const Spring& s : model.springs) add(s.i, s.j, s.spring_class, s.rest_length);
+        for (const Spring& s : model.springs.list) add(s.i, s.j, s.spring_class, s.rest_length);
     return scales;
 }
 
@@ -74,7 +75,7 @@ void expect_near(const ClothModel& model, const State& plain, const State& fast,
         return static_cast<double>(state.at(resource)[k]);
     };
     for (std::size_t k = 0; k < 3 * scales.size(); ++k) {
-        const double inverse_mass = model.inverse_mass(k / 3), force = scales[k / 3];
+        const double inverse_mass = model.masses.inverse(k / 3), force = scales[k / 3];
         const double speed =
             std::abs(component(plain, Resource::velocity, k)) + dt * force * inverse_mass + 10 * dt;
         const double velocity = dt * inverse_mass * force * force_tolerance + 8 * rounding * speed;
@@ -159,7 +160,7 @@ TEST(FastMathAlone, GivesNodesAtOnePlaceNoDirection)
     Scene scene;
     scene.add(test::flat_sheet(5, 9));
     ClothModel model(scene.cloth(0), scene);
-    for (Vec3& x : model.positions) x = {0.25f, 0.5f, -1};
+    for (Vec3& x : model.shape.positions) x = {0.25f, 0.5f, -1};
     SimulationOptions options;
     options.fast_math = true;
     std::vector<SimulationOptions> machines{test::on(Backend::vulkan)};

@@ -159,7 +159,7 @@ TEST(MeshHierarchy, CoarseOperatorsAreWhatProlongationMakesOfFineOnes)
     ClothModel model(scene.cloth(0), scene);
     std::mt19937 engine(5);
     std::uniform_real_distribution<float> shake(-0.01f, 0.01f);
-    for (Vec3& x : model.positions) x = {x.x + shake(engine), x.y + shake(engine), x.z + shake(engine)};
+    for (Vec3& x : model.shape.positions) x = {x.x + shake(engine), x.y + shake(engine), x.z + shake(engine)};
 
     PlainCloth<double> cloth(model);
     SolverState<double> solver(model, model.hierarchy);

@@ -129,13 +129,14 @@ struct Bench {
     {
         oracle::StepInput input{.cloth = scene.cloth(0), .scene = scene, .dt = dt};
         if (c.implicit_euler) input.scene.method = Method::mass_spring;
-        if (c.disc) input.triangles.assign(model.triangles().begin(), model.triangles().end());
+        if (c.disc) input.triangles.assign(model.shape.triangles().begin(), model.shape.triangles().end());
         if (c.disc)
             for (std::uint32_t v = 0; v < model.node_count(); ++v)
-                input.numbers.push_back(static_cast<int>(model.node(v)));
+                input.numbers.push_back(static_cast<int>(model.shape.node(v)));
         const std::uint32_t count = model.node_count();
         for (std::uint32_t vertex = 0; vertex < count; ++vertex)
-            input.rest.push_back(oracle::point_of(to_double(model.positions[model.node(vertex)])));
+            input.rest.push_back(
+                oracle::point_of(to_double(model.shape.positions[model.shape.node(vertex)])));
         std::mt19937 engine(seed);
         std::uniform_real_distribution<double> unit(-1, 1);
         const auto any = [&](double size) {
@@ -143,36 +144,36 @@ struct Bench {
             return Vec3d{size * x, size * y, size * z};
         };
         for (std::uint32_t vertex = 0; vertex < count; ++vertex) {
-            const std::uint32_t node = model.node(vertex);
-            Vec3& x = model.positions[node];
+            const std::uint32_t node = model.shape.node(vertex);
+            Vec3& x = model.shape.positions[node];
             x = to_float(to_double(x) * (1 + stretch) + any(shake));
             const Vec3d v = any(speed);
-            if (model.inverse_mass(node) > 0) model.velocities[node] = to_float(v);
+            if (model.masses.inverse(node) > 0) model.shape.velocities[node] = to_float(v);
             input.position.push_back(oracle::point_of(to_double(x)));
-            input.velocity.push_back(oracle::point_of(to_double(model.velocities[node])));
-            input.is_pinned.push_back(!(model.inverse_mass(node) > 0));
+            input.velocity.push_back(oracle::point_of(to_double(model.shape.velocities[node])));
+            input.is_pinned.push_back(!(model.masses.inverse(node) > 0));
             input.destination.push_back(input.position.back());
         }
         if (c.second_order) {  // a pin's way ends where it is, and its velocity says nothing
             for (std::uint32_t vertex = 0; vertex < count; ++vertex) {
-                const Vec3d v = to_double(model.velocities[model.node(vertex)]);
+                const Vec3d v = to_double(model.shape.velocities[model.shape.node(vertex)]);
                 way.push_back(oracle::point_of(to_double(to_float(v * dt + any(0.3 * speed * dt)))));
                 before.push_back(oracle::point_of(to_double(to_float(v + any(0.3 * speed)))));
             }
         }
         attached.resize(1);
-        for (const AttachedNode& a : model.attached) {
-            const Vec3 x = model.positions[a.node];
+        for (const AttachedNode& a : model.attachments.nodes) {
+            const Vec3 x = model.shape.positions[a.node];
             attached[0].push_back({x.x + 0.01f, x.y + 0.002f, x.z});
             for (std::uint32_t vertex = 0; vertex < count; ++vertex)
-                if (model.node(vertex) == a.node)
+                if (model.shape.node(vertex) == a.node)
                     input.destination[vertex] = oracle::point_of(to_double(attached[0].back()));
         }
         for (const Collider& collider : scene.colliders) colliders.push_back(placed_at(collider, 0.5));
         for (PlacedCollider& placed : colliders)  // it has moved for half of its second
             if (placed.moves) placed.centre = placed.centre - placed.velocity * 0.5;
         input.colliders = colliders;
-        if (c.remembers) input.softest = model.softest_limit(dt);
+        if (c.remembers) input.softest = model.limits.softest(dt);
         if (c.second_order) input = ImplicitStep::second_order(std::move(input), way, before);
         step.emplace(std::move(input));
     }
@@ -198,9 +199,9 @@ struct Bench {
         };
         for (std::uint32_t vertex = 0; vertex < way.size(); ++vertex)
             for (int k = 0; k < 3; ++k) {
-                write(history_way + k, model.node(vertex), way[vertex][k]);
-                write(history_velocity + k, model.node(vertex), before[vertex][k]);
-                if (k == 0) write(history_step, model.node(vertex), dt);
+                write(history_way + k, model.shape.node(vertex), way[vertex][k]);
+                write(history_velocity + k, model.shape.node(vertex), before[vertex][k]);
+                if (k == 0) write(history_step, model.shape.node(vertex), dt);
             }
     }
     /// The first look at a step.
@@ -345,7 +346,7 @@ TEST_P(StepOracle, HasTheProductOfTheOperator)
     // The first iteration of conjugate gradients without a preconditioner goes along p = r.
     const OracleCase c = the_case();
     Bench bench = clear_bench(c, 0.02, 1);
-    bench.model.newton.preconditioner = Preconditioner::none;
+    bench.model.plan.newton.preconditioner = Preconditioner::none;
     const Vector t = bench.step->start();
     const Matrix newton = bench.step->newton_matrix(t);
     for (Machine& machine : machines_of(bench.model)) {
@@ -371,7 +372,7 @@ TEST_P(StepEnd, IsWhereTheEnergyIsLeast)
     const OracleCase c = the_case();
     // Held along its border and stretched by 5 %, so that all springs pull and there is but one minimum.
     Bench bench(c, 1, 0.002, 0.3, 0.05, true);
-    NewtonMultigridOptions& options = bench.model.newton;
+    NewtonMultigridOptions& options = bench.model.plan.newton;
     options.newton_iterations = 120;
     options.newton_tolerance = 1e-6;
     options.linear_iterations = 200;
@@ -406,7 +407,7 @@ TEST_P(StepEnd, IsWhereTheEnergyIsLeast)
         Vector found(least.size()), place(least.size()), start(least.size());
         for (std::uint32_t vertex = 0; vertex < bench.model.node_count(); ++vertex)
             for (std::uint32_t k = 0; k < 3; ++k) {
-                const std::uint32_t at = 3 * bench.model.node(vertex) + k;
+                const std::uint32_t at = 3 * bench.model.shape.node(vertex) + k;
                 found[3 * vertex + k] = double{v[at]} * step.input().dt;
                 place[3 * vertex + k] = double{x[at]};
                 start[3 * vertex + k] = step.input().position[vertex][k];

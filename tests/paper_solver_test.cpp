@@ -58,11 +58,11 @@ void shake(ClothModel& model, float by, float speed, unsigned seed)
 {
     std::mt19937 engine(seed);
     std::uniform_real_distribution<float> unit(-1, 1);
-    for (std::size_t i = 0; i < model.positions.size(); ++i) {
-        Vec3& x = model.positions[i];
+    for (std::size_t i = 0; i < model.shape.positions.size(); ++i) {
+        Vec3& x = model.shape.positions[i];
         x = {x.x + by * unit(engine), x.y + by * unit(engine), x.z + by * unit(engine)};
-        if (model.inverse_mass(i) > 0)
-            model.velocities[i] = {speed * unit(engine), speed * unit(engine), speed * unit(engine)};
+        if (model.masses.inverse(i) > 0)
+            model.shape.velocities[i] = {speed * unit(engine), speed * unit(engine), speed * unit(engine)};
     }
 }
 
@@ -143,8 +143,8 @@ TEST(PaperSystem, IsThatOfTheEquations)
     // Densely, by eq. (5) and (11): J is m x 3n.
     std::vector<Spring> constraints;
     std::vector<Vec3d> force(model.node_count());
-    const auto x = [&](std::size_t i) { return to_double(model.positions[i]); };
-    for (const Spring& spring : model.springs)
+    const auto x = [&](std::size_t i) { return to_double(model.shape.positions[i]); };
+    for (const Spring& spring : model.springs.list)
         if (spring.spring_class == SpringClass::bend) {
             const Vec3d d = x(spring.j) - x(spring.i);
             const double l = std::sqrt(dot(d, d));
@@ -158,9 +158,9 @@ TEST(PaperSystem, IsThatOfTheEquations)
     std::vector<std::vector<double>> jacobian(m, std::vector<double>(3 * n));
     std::vector<double> u(3 * n), right_side(m);
     for (std::size_t i = 0; i < n; ++i) {
-        const Vec3d v = to_double(model.velocities[i]) * (1 - 0.1 * dt);
-        const Vec3d next = model.inverse_mass(i) > 0
-                               ? v + (force[i] * model.inverse_mass(i) + Vec3d{0, -9.81, 0}) * dt
+        const Vec3d v = to_double(model.shape.velocities[i]) * (1 - 0.1 * dt);
+        const Vec3d next = model.masses.inverse(i) > 0
+                               ? v + (force[i] * model.masses.inverse(i) + Vec3d{0, -9.81, 0}) * dt
                                : Vec3d{};
         u[3 * i] = next.x, u[3 * i + 1] = next.y, u[3 * i + 2] = next.z;
     }
@@ -182,7 +182,7 @@ TEST(PaperSystem, IsThatOfTheEquations)
         for (std::size_t t = 0; t < m; ++t) {
             double sum = 0;
             for (std::size_t k = 0; k < 3 * n; ++k)
-                sum += jacobian[s][k] * jacobian[t][k] * model.inverse_mass(k / 3);
+                sum += jacobian[s][k] * jacobian[t][k] * model.masses.inverse(k / 3);
             const Vec3d d = x(constraints[s].i) - x(constraints[s].j);
             if (s == t) sum += scene.paper.compliance * 4 * dot(d, d) / (dt * dt);
             ASSERT_NEAR(of_double[s][t], sum, 1e-12) << s << ' ' << t;
@@ -230,7 +230,7 @@ TEST(PaperSystem, KnowsAPinWhereTheStepTakesIt)
 ClothModel curved_sheet(const Scene& scene)
 {
     ClothModel model(scene.cloth(0), scene);
-    for (Vec3& x : model.positions) {
+    for (Vec3& x : model.shape.positions) {
         const float radius = 2 / 3.14159265f, angle = x.x / radius;
         x = {radius * std::sin(angle), radius * std::cos(angle), x.z};
     }
@@ -373,7 +373,7 @@ TEST_P(PaperScan, ListsTheActiveConstraints)
     std::vector<int> marks(count), places(count);
     for (std::uint32_t k = 0; k < count; ++k) {
         marks[k] = count == 1 || engine() % 3 == 0;
-        model.positions[2 * k + 1].y *= marks[k] ? 1.2f : 1.05f;
+        model.shape.positions[2 * k + 1].y *= marks[k] ? 1.2f : 1.05f;
     }
     std::exclusive_scan(marks.begin(), marks.end(), places.begin(), 0);
     Bench<float> bench(model, 0.001);

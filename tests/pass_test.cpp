@@ -98,8 +98,8 @@ std::map<Resource, std::vector<float>> results_of(PassRunner& runner, const Clot
     append_drawing(model, 0, program.parity_after, program.calls);
     // A moving pin goes 1 m/s.
     std::vector<std::vector<Vec3>> attached(1);
-    for (const AttachedNode& a : model.attached) {
-        const Vec3 x = model.positions[a.node];
+    for (const AttachedNode& a : model.attachments.nodes) {
+        const Vec3 x = model.shape.positions[a.node];
         attached[0].push_back({x.x + static_cast<float>(dt), x.y, x.z});
     }
     const GrabInput grab{0, model.node_count() - 1, {0.3, 0.2, -0.4}, 11.0, 0.25};
@@ -109,7 +109,7 @@ std::map<Resource, std::vector<float>> results_of(PassRunner& runner, const Clot
     std::vector<Resource> computed = {Resource::position, Resource::velocity, Resource::normal,
                                       Resource::strain, Resource::measures};
     if (model.feels_air()) computed.push_back(Resource::external_force);
-    if (!model.node_centric()) computed.push_back(Resource::spring_force);
+    if (!model.plan.node_centric) computed.push_back(Resource::spring_force);
     for (const Resource resource : computed)
         runner.read(0, resource, program.parity_after, results[resource]);
     return results;
@@ -143,7 +143,7 @@ TEST_P(PassParity, AllBackendsAgree)
     const double force_scale =
         1000 * (0.2 + 2);  // k l + what shaking adds, N: more than any spring here carries
     double least_mass = 1e30;
-    for (const double m : model.masses) least_mass = std::min(least_mass, m);
+    for (const double m : model.masses.kg) least_mass = std::min(least_mass, m);
     constexpr double rounding = 0x1p-24;
     const auto expect_near = [&](Resource resource, double tolerance) {
         EXPECT_LE(test::largest_difference(expected.at(resource), exact.at(resource)), tolerance)
@@ -155,7 +155,7 @@ TEST_P(PassParity, AllBackendsAgree)
     expect_near(Resource::velocity, velocity_tolerance);
     expect_near(Resource::position, velocity_tolerance * dt + 8 * rounding);
     expect_near(Resource::external_force, 64 * rounding);
-    if (!model.node_centric()) expect_near(Resource::spring_force, 64 * rounding * force_scale);
+    if (!model.plan.node_centric) expect_near(Resource::spring_force, 64 * rounding * force_scale);
     // Normals come from sides that are differences of rounded positions; where a shaken sheet's triangles
     // cancel they have no direction at all, so the bound is on the mean square.
     const auto &n = expected.at(Resource::normal), &m = exact.at(Resource::normal);
@@ -174,7 +174,7 @@ TEST_P(PassParity, AllBackendsAgree)
                     tolerance)
             << "measure " << component;
     };
-    const double springs = static_cast<double>(model.measured_spring_count());
+    const double springs = static_cast<double>(model.springs.measured_count);
     const auto exact_of = [&](std::size_t component) {
         return std::abs(exact_root[exact_root.size() - 8 + component]);
     };
@@ -286,8 +286,8 @@ TEST(Denormals, NeverReachTheState)
     scene.gravity = {0, 0, 0};
     scene.add(cloth);
     ClothModel model(scene.cloth(0), scene);
-    for (std::size_t i = 0; i < model.velocities.size(); ++i)
-        model.velocities[i] = {3e-39f, static_cast<float>(i) * 1e-38f, 1e-5f};
+    for (std::size_t i = 0; i < model.shape.velocities.size(); ++i)
+        model.shape.velocities[i] = {3e-39f, static_cast<float>(i) * 1e-38f, 1e-5f};
     std::map<Resource, std::vector<float>> expected;
     for (const test::CpuWay& way : test::cpu_ways()) {
         const auto results = results_of(*make_cpu_runner({&model, 1}, way.options()), model, {}, no_cloth);

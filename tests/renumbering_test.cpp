@@ -75,9 +75,9 @@ TEST(Renumbering, PutsNeighboursNearEachOther)
         const ClothModel model(scene.cloth(0), scene);
         std::vector<std::uint32_t> vertex_of(count);
         for (std::uint32_t vertex = 0; vertex < count; ++vertex)
-            vertex_of[model.node_of_vertex.at(vertex)] = vertex;
+            vertex_of[model.shape.node_of_vertex.at(vertex)] = vertex;
         double leaps = 0, leaps_as_given = 0;
-        for (const Spring& s : model.springs) {
+        for (const Spring& s : model.springs.list) {
             leaps += s.j - s.i;
             const auto [first, second] = std::minmax(vertex_of[s.i], vertex_of[s.j]);
             leaps_as_given += second - first;
@@ -158,7 +158,7 @@ TEST(Renumbering, MovesAllOfANodeTogether)
     // Against the same patch with its vertices in the order of the nodes, of which nothing moves.
     const Scene scene = leaping_scene();
     const ClothModel model(scene.cloth(0), scene);
-    const std::vector<std::uint32_t>& node_of = model.node_of_vertex;
+    const std::vector<std::uint32_t>& node_of = model.shape.node_of_vertex;
     const Scene in_order =
         patch_scene([&](std::uint32_t r, std::uint32_t c) { return node_of[leaping_name(r, c)]; }, node_of[5],
                     node_of[40]);
@@ -169,43 +169,44 @@ TEST(Renumbering, MovesAllOfANodeTogether)
     std::sort(sorted.begin(), sorted.end());
     std::iota(all.begin(), all.end(), 0u);
     EXPECT_EQ(sorted, all);
-    ASSERT_EQ(model.springs.size(), as_given.springs.size());
-    for (std::size_t s = 1; s < model.springs.size(); ++s)
-        EXPECT_LT(std::pair(model.springs[s - 1].i, model.springs[s - 1].j),
-                  std::pair(model.springs[s].i, model.springs[s].j));
+    ASSERT_EQ(model.springs.list.size(), as_given.springs.list.size());
+    for (std::size_t s = 1; s < model.springs.list.size(); ++s)
+        EXPECT_LT(std::pair(model.springs.list[s - 1].i, model.springs.list[s - 1].j),
+                  std::pair(model.springs.list[s].i, model.springs.list[s].j));
     std::vector<std::uint32_t> vertex_of(node_of.size());
     for (std::uint32_t v = 0; v < node_of.size(); ++v) {
-        EXPECT_EQ(as_given.node_of_vertex[v], v);
+        EXPECT_EQ(as_given.shape.node_of_vertex[v], v);
         vertex_of[node_of[v]] = v;
     }
-    for (std::size_t s = 0; s < model.springs.size(); ++s) {
-        const Spring &mine = model.springs[s], &theirs = as_given.springs[s];
+    for (std::size_t s = 0; s < model.springs.list.size(); ++s) {
+        const Spring &mine = model.springs.list[s], &theirs = as_given.springs.list[s];
         EXPECT_LT(mine.i, mine.j);
         EXPECT_EQ(std::pair(mine.i, mine.j), std::pair(theirs.i, theirs.j));
         EXPECT_EQ(mine.spring_class, theirs.spring_class);
         EXPECT_EQ(mine.rest_length, theirs.rest_length);
     }
     for (std::uint32_t n = 0; n < node_of.size(); ++n) {
-        EXPECT_TRUE(same(model.positions[n], as_given.positions[n]));
-        EXPECT_TRUE(same(model.velocities[n], as_given.velocities[n]));
-        EXPECT_EQ(model.masses[n], as_given.masses[n]);
-        EXPECT_EQ(model.pinned[n], as_given.pinned[n]);
-        const auto row = model.neighbours.row(n);
-        ASSERT_EQ(row.size(), as_given.neighbours.row(n).size());
+        EXPECT_TRUE(same(model.shape.positions[n], as_given.shape.positions[n]));
+        EXPECT_TRUE(same(model.shape.velocities[n], as_given.shape.velocities[n]));
+        EXPECT_EQ(model.masses.kg[n], as_given.masses.kg[n]);
+        EXPECT_EQ(model.masses.pinned[n], as_given.masses.pinned[n]);
+        const auto row = model.springs.neighbours.row(n);
+        ASSERT_EQ(row.size(), as_given.springs.neighbours.row(n).size());
         for (std::size_t k = 0; k < row.size(); ++k) {
             if (k > 0) {  // in the order of the mesh
                 EXPECT_LT(vertex_of[row[k - 1].node], vertex_of[row[k].node]);
             }
-            const Spring& spring = model.springs[row[k].spring];
+            const Spring& spring = model.springs.list[row[k].spring];
             EXPECT_EQ(std::minmax(n, row[k].node), std::minmax(spring.i, spring.j));
         }
-        const auto around = model.node_triangles.row(n), given_around = as_given.node_triangles.row(n);
+        const auto around = model.shape.node_triangles.row(n),
+                   given_around = as_given.shape.node_triangles.row(n);
         EXPECT_TRUE(std::equal(around.begin(), around.end(), given_around.begin(), given_around.end()));
     }
-    ASSERT_EQ(model.attached.size(), 1u);
-    EXPECT_EQ(model.attached[0].node, node_of[40]);
-    EXPECT_TRUE(std::equal(model.triangles().begin(), model.triangles().end(), as_given.triangles().begin(),
-                           as_given.triangles().end()));
+    ASSERT_EQ(model.attachments.nodes.size(), 1u);
+    EXPECT_EQ(model.attachments.nodes[0].node, node_of[40]);
+    EXPECT_TRUE(std::equal(model.shape.triangles().begin(), model.shape.triangles().end(),
+                           as_given.shape.triangles().begin(), as_given.shape.triangles().end()));
 }
 
 TEST(Renumbering, ShowsInNothingThatASimulationGives)

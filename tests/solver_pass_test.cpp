@@ -143,7 +143,7 @@ ClothModel stretched_model(const Scene& scene)
 {
     ClothModel model(scene.cloth(0), scene);
     const float factor = scene.method == Method::acad ? 1.12f : 1.002f;
-    for (Vec3& x : model.positions) x = {factor * x.x, x.y, x.z};
+    for (Vec3& x : model.shape.positions) x = {factor * x.x, x.y, x.z};
     return model;
 }
 
@@ -167,7 +167,7 @@ State state_after(PassRunner& runner, const ClothModel& model, const Scene& scen
 std::vector<float> positions_of(const ClothModel& model)
 {
     std::vector<float> positions;
-    for (const Vec3& x : model.positions) positions.insert(positions.end(), {x.x, x.y, x.z});
+    for (const Vec3& x : model.shape.positions) positions.insert(positions.end(), {x.x, x.y, x.z});
     return positions;
 }
 

@@ -86,12 +86,14 @@ inline ClothModel shaken_model(const Scene& scene)
     ClothModel model(scene.cloth(0), scene);
     std::mt19937 engine(11);
     std::uniform_real_distribution<float> unit(-1, 1);
-    const double length = model.sheet ? model.sheet->rest_lengths[0] : model.springs.front().rest_length;
+    const double length =
+        model.shape.sheet ? model.shape.sheet->rest_lengths[0] : model.springs.list.front().rest_length;
     const float shake = 0.1f * static_cast<float>(length);
-    for (std::size_t i = 0; i < model.positions.size(); ++i) {
-        Vec3& x = model.positions[i];
+    for (std::size_t i = 0; i < model.shape.positions.size(); ++i) {
+        Vec3& x = model.shape.positions[i];
         x = {x.x + shake * unit(engine), x.y + shake * unit(engine), x.z + shake * unit(engine)};
-        if (model.inverse_mass(i) > 0) model.velocities[i] = {unit(engine), unit(engine), unit(engine)};
+        if (model.masses.inverse(i) > 0)
+            model.shape.velocities[i] = {unit(engine), unit(engine), unit(engine)};
     }
     return model;
 }

@@ -24,7 +24,7 @@ Scene impact(Cloth body, double dt = 1e-4)
     const Scene probe = free_scene(body);
     const ClothModel model(probe.cloth(0), probe);
     test::Smallest lowest;
-    for (const Vec3& x : model.positions) lowest.add(double{x.y} + model.origin.y);
+    for (const Vec3& x : model.shape.positions) lowest.add(double{x.y} + model.shape.origin.y);
     body.position.y += 0.012 - lowest.value();
     body.velocity = {0, -2, 0};
     Scene scene = free_scene(body);

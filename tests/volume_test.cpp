@@ -45,9 +45,10 @@ ClothModel shaken(const Scene& scene, float shake, float speed)
     ClothModel model(scene.cloth(0), scene);
     std::mt19937 engine(3);
     std::uniform_real_distribution<float> unit(-1, 1);
-    for (Vec3& x : model.positions)
+    for (Vec3& x : model.shape.positions)
         x = {x.x + shake * unit(engine), x.y + shake * unit(engine), x.z + shake * unit(engine)};
-    for (Vec3& v : model.velocities) v = {speed * unit(engine), speed * unit(engine), speed * unit(engine)};
+    for (Vec3& v : model.shape.velocities)
+        v = {speed * unit(engine), speed * unit(engine), speed * unit(engine)};
     return model;
 }
 
@@ -62,7 +63,7 @@ Momenta momenta_of(PassRunner& runner, const ClothModel& model, std::uint32_t pa
     runner.read(0, Resource::velocity, parity, v);
     Momenta sum;
     for (std::size_t i = 0; i < model.node_count(); ++i) {
-        const double m = model.masses[i];
+        const double m = model.masses.kg[i];
         const Vec3d p = {double{x[3 * i]}, double{x[3 * i + 1]}, double{x[3 * i + 2]}};
         const Vec3d u = Vec3d{double{v[3 * i]}, double{v[3 * i + 1]}, double{v[3 * i + 2]}} * m;
         sum.linear = sum.linear + u;
@@ -103,7 +104,7 @@ TEST(VolumeGradient, MatchesFiniteDifferencesAndPushesAndTurnsNothing)
         std::vector<float> g;
         runner->read(0, Resource::gradient, 0, g);
 
-        std::vector<Vec3d> x = doubles(model.positions);
+        std::vector<Vec3d> x = doubles(model.shape.positions);
         // 6 V is linear in each coordinate, so that a difference over 0.1 m is exact but for rounding of
         // 1e-16 of 6 V.
         constexpr double h = 0.05;
@@ -116,9 +117,9 @@ TEST(VolumeGradient, MatchesFiniteDifferencesAndPushesAndTurnsNothing)
             for (std::size_t k = 0; k < 3; ++k) {
                 const double before = *coordinates[k];
                 *coordinates[k] = before + h;
-                const double above = sixfold(x, model.triangles());
+                const double above = sixfold(x, model.shape.triangles());
                 *coordinates[k] = before - h;
-                const double below = sixfold(x, model.triangles());
+                const double below = sixfold(x, model.shape.triangles());
                 *coordinates[k] = before;
                 EXPECT_NEAR(double{g[3 * i + k]}, (above - below) / (2 * h), 1e-6 * largest) << "node " << i;
             }

@@ -169,7 +169,7 @@ private:
 
 void add_bending(std::vector<Spring>& springs, const SheetShape& sheet, double bending_stiffness)
 {
-    const double dx = sheet.rest_lengths[0], dz = sheet.rest_lengths[1];
+    const double dx = sheet.spacing[0], dz = sheet.spacing[1];
     const double row_weight = bending_stiffness * dz / (dx * dx * dx);
     const double column_weight = bending_stiffness * dx / (dz * dz * dz);
     const double twist_weight = 2 * bending_stiffness / (dx * dz);

@@ -18,7 +18,9 @@
 #include <span>
 #include <vector>
 
-#include "body/cloth_model.hpp"
+#include "body/sheet_shape.hpp"
+#include "body/spring.hpp"
+#include "pliant/mesh.hpp"
 
 namespace pliant {
 

@@ -44,7 +44,7 @@ struct VolumeGoal {
 };
 
 struct BodyModel {
-    /// By node: the first of its ClothModel::neighbours that is across the inside. Those before it are the
+    /// By node: the first of its SpringSet::neighbours that is across the inside. Those before it are the
     /// ring around it, counter-clockwise seen from outside.
     std::vector<std::uint32_t> links;
     /// Triangles that share a node: the node, and then those around it, one more than there are triangles.
@@ -60,6 +60,10 @@ struct BodyModel {
     /// Volumes and pressures differ from step to step.
     bool goals_move() const;
     VolumeGoal goal_at(std::size_t part, double time) const;
+    /// Appends another model of `count` nodes: its first becomes `node`, the first entry of its rows of
+    /// neighbours `neighbour`, and it is moved by `shift` (m).
+    void append(const BodyModel& other, std::uint32_t node, std::uint32_t count, std::uint32_t neighbour,
+                Vec3d shift);
 };
 
 /// A value of keyframes at a time; `otherwise` where there are none.

@@ -16,9 +16,9 @@ constexpr std::size_t most_springs = std::size_t{1} << 24;
 
 bool may_be_constraint(const ClothModel& cloth, const Spring& spring)
 {
-    const LimitedSprings& of_class = cloth.limited[static_cast<std::size_t>(spring.spring_class)];
+    const LimitedSprings& of_class = cloth.limits.of_class[static_cast<std::size_t>(spring.spring_class)];
     // What two pins hold cannot move, and would be an equation without an unknown.
-    const bool held = !(cloth.inverse_mass(spring.i) > 0) && !(cloth.inverse_mass(spring.j) > 0);
+    const bool held = !(cloth.masses.inverse(spring.i) > 0) && !(cloth.masses.inverse(spring.j) > 0);
     return of_class.exists && of_class.beyond > 0 && !held;
 }
 
@@ -33,12 +33,12 @@ ConstraintRows::ConstraintRows(const ClothModel& cloth, std::size_t number_base)
         if (too_large)
             throw Error(ErrorKind::bad_input,
                         "a cloth of " + std::to_string(cloth.node_count()) + " nodes and " +
-                            std::to_string(cloth.springs.size()) +
+                            std::to_string(cloth.springs.list.size()) +
                             " springs is too large for the solver paper, which can count "
                             "2^24 springs and number 2^31 values; use fewer nodes or the "
                             "solver newton_multigrid");
     };
-    refuse_if(cloth.springs.size() > most_springs);
+    refuse_if(cloth.springs.list.size() > most_springs);
     number_springs(cloth);
     list_nodes(cloth);
     list_matrix(cloth);
@@ -56,37 +56,37 @@ std::int32_t ConstraintRows::begin(int header_entry)
 void ConstraintRows::number_springs(const ClothModel& cloth)
 {
     for (const bool wanted : {true, false}) {
-        for (std::uint32_t s = 0; s < cloth.springs.size(); ++s) {
-            const Spring& spring = cloth.springs[s];
-            if (!cloth.limited[static_cast<std::size_t>(spring.spring_class)].exists) continue;
+        for (std::uint32_t s = 0; s < cloth.springs.list.size(); ++s) {
+            const Spring& spring = cloth.springs.list[s];
+            if (!cloth.limits.of_class[static_cast<std::size_t>(spring.spring_class)].exists) continue;
             if (may_be_constraint(cloth, spring) == wanted) spring_of_.push_back(s);
         }
         if (wanted) constraints = static_cast<std::uint32_t>(spring_of_.size());
     }
     springs = static_cast<std::uint32_t>(spring_of_.size());
-    const NodeLayout layout(cloth.is_sheet() ? cloth.sheet->rows : 1,
-                            cloth.is_sheet() ? cloth.sheet->columns : cloth.node_count());
+    const NodeLayout layout(cloth.plan.on_grid ? cloth.shape.sheet->rows : 1,
+                            cloth.plan.on_grid ? cloth.shape.sheet->columns : cloth.node_count());
     begin(rows_ends);
     for (const std::uint32_t s : spring_of_)
-        for (const std::uint32_t node : {cloth.springs[s].i, cloth.springs[s].j})
+        for (const std::uint32_t node : {cloth.springs.list[s].i, cloth.springs.list[s].j})
             topology.push_back(entry(layout.offset(node)));
     begin(rows_classes);
     for (const std::uint32_t s : spring_of_)
-        topology.push_back(entry(std::size_t(cloth.springs[s].spring_class)));
+        topology.push_back(entry(std::size_t(cloth.springs.list[s].spring_class)));
 }
 
 /// In the order in which a node of a spring list adds its springs.
 void ConstraintRows::list_nodes(const ClothModel& cloth)
 {
     constexpr std::int32_t none = -1;
-    std::vector<std::int32_t> number_of(cloth.springs.size(), none);
+    std::vector<std::int32_t> number_of(cloth.springs.list.size(), none);
     for (std::size_t s = 0; s < spring_of_.size(); ++s) number_of[spring_of_[s]] = entry(s);
     std::vector<std::int32_t> entries;
     entries.reserve(2 * spring_of_.size());
     begin(rows_node_start);
     for (std::uint32_t node = 0; node < cloth.node_count(); ++node) {
         topology.push_back(entry(entries.size()));
-        for (const Neighbour& neighbour : cloth.neighbours.row(node)) {
+        for (const Neighbour& neighbour : cloth.springs.neighbours.row(node)) {
             const std::int32_t s = number_of[neighbour.spring];
             if (s != none) entries.push_back(2 * s + (node < neighbour.node ? 0 : 1));
         }
@@ -105,9 +105,9 @@ void ConstraintRows::list_matrix(const ClothModel& cloth)
     for (std::uint32_t s = 0; s < constraints; ++s) {
         topology.push_back(entry(columns.size()));
         row.assign(1, entry(s));
-        const Spring& spring = cloth.springs[spring_of_[s]];
+        const Spring& spring = cloth.springs.list[spring_of_[s]];
         for (const std::uint32_t node : {spring.i, spring.j}) {
-            if (!(cloth.inverse_mass(node) > 0)) continue;
+            if (!(cloth.masses.inverse(node) > 0)) continue;
             const auto first = static_cast<std::size_t>(topology[node_start + node]);
             const auto end = static_cast<std::size_t>(topology[node_start + node + 1]);
             for (std::size_t e = first; e < end; ++e) {
@@ -126,23 +126,23 @@ void ConstraintRows::list_matrix(const ClothModel& cloth)
 
 void ConstraintRows::place_numbers(const ClothModel& cloth)
 {
-    const bool adaptive = cloth.method == Method::acad;
+    const bool adaptive = cloth.plan.method == Method::acad;
     topology[rows_springs] = entry(springs);
     topology[rows_constraints] = entry(constraints);
     topology[rows_adaptive] = adaptive;
-    topology[rows_compression] = adaptive && cloth.acad.compression;
-    topology[rows_unilateral] = adaptive && cloth.acad.target == AcadTarget::threshold;
+    topology[rows_compression] = adaptive && cloth.plan.acad.compression;
+    topology[rows_unilateral] = adaptive && cloth.plan.acad.target == AcadTarget::threshold;
 
     numbers.assign(paper_values, 0.0);
     for (std::size_t k = 0; k < spring_class_count; ++k) {
         numbers[paper_stiffness + k] = cloth.parameters.stiffness[k];
         numbers[paper_damping + k] = cloth.parameters.spring_damping[k];
     }
-    numbers[paper_tolerance] = cloth.paper.tolerance;
-    numbers[paper_compliance] = cloth.paper.compliance;
-    numbers[paper_activate] = cloth.acad.activate_at;
-    numbers[paper_deactivate] = cloth.acad.deactivate_at.value_or(cloth.acad.activate_at);
-    for (const std::uint32_t s : spring_of_) numbers.push_back(cloth.springs[s].rest_length);
+    numbers[paper_tolerance] = cloth.plan.paper.tolerance;
+    numbers[paper_compliance] = cloth.plan.paper.compliance;
+    numbers[paper_activate] = cloth.plan.acad.activate_at;
+    numbers[paper_deactivate] = cloth.plan.acad.deactivate_at.value_or(cloth.plan.acad.activate_at);
+    for (const std::uint32_t s : spring_of_) numbers.push_back(cloth.springs.list[s].rest_length);
 
     std::size_t at = first_number;
     const auto take = [&](std::size_t count) {

@@ -12,15 +12,15 @@ namespace pliant {
 
 Hierarchy::Hierarchy(const ClothModel& cloth)
 {
-    if (cloth.solver == Solver::paper) {
+    if (cloth.plan.solver == Solver::paper) {
         build_rows(cloth);
         return;
     }
-    if (cloth.is_sheet())
+    if (cloth.plan.on_grid)
         build_sheet(cloth);
     else
         build_mesh(cloth);
-    if (cloth.corrects_steps()) append_live_flags();
+    if (cloth.plan.corrects_steps()) append_live_flags();
     const std::size_t bottom = 3 * std::size_t(levels.back().rows) * std::size_t(levels.back().columns);
     bottom_base = static_cast<std::int32_t>(number_count);
     number_count += bottom * bottom;
@@ -57,10 +57,10 @@ SolverLevel Hierarchy::append_level(std::int32_t rows, std::int32_t columns, std
 void Hierarchy::build_sheet(const ClothModel& cloth)
 {
     constexpr std::int32_t few = 3;
-    auto rows = static_cast<std::int32_t>(cloth.sheet->rows),
-         columns = static_cast<std::int32_t>(cloth.sheet->columns);
-    std::int32_t planes = cloth.bends_by_constraints() ? bent_sheet_planes : sheet_planes;
-    if (cloth.is_second_order()) history_plane = std::exchange(planes, planes + history_planes);
+    auto rows = static_cast<std::int32_t>(cloth.shape.sheet->rows),
+         columns = static_cast<std::int32_t>(cloth.shape.sheet->columns);
+    std::int32_t planes = cloth.limits.bends_by_constraints() ? bent_sheet_planes : sheet_planes;
+    if (cloth.plan.is_second_order()) history_plane = std::exchange(planes, planes + history_planes);
     append_level(rows, columns, planes);
     do {
         rows = rows / 2 + 1;
@@ -86,9 +86,10 @@ void Hierarchy::append_live_flags()
 /// The paper's solver: the cloth alone, and patterns over its springs.
 void Hierarchy::build_rows(const ClothModel& cloth)
 {
-    const bool sheet = cloth.is_sheet();
-    append_level(sheet ? static_cast<std::int32_t>(cloth.sheet->rows) : 1,
-                 static_cast<std::int32_t>(sheet ? cloth.sheet->columns : cloth.node_count()), paper_planes);
+    const bool sheet = cloth.plan.on_grid;
+    append_level(sheet ? static_cast<std::int32_t>(cloth.shape.sheet->rows) : 1,
+                 static_cast<std::int32_t>(sheet ? cloth.shape.sheet->columns : cloth.node_count()),
+                 paper_planes);
     constraints = ConstraintRows(cloth, number_count);
     topology = std::move(constraints.topology);
     number_count += constraints.number_count();

@@ -245,7 +245,7 @@ CoarseMesh coarser(const MeshGraph& fine)
 
 namespace {
 
-bool is_free(const ClothModel& cloth, std::uint32_t node) { return cloth.inverse_mass(node) > 0; }
+bool is_free(const ClothModel& cloth, std::uint32_t node) { return cloth.masses.inverse(node) > 0; }
 
 /// The spring between two nodes, as a place in cloth.springs: one of a class that does something, and moves a
 /// node. `nowhere` when there is none.
@@ -253,12 +253,12 @@ std::uint32_t spring_between(const ClothModel& cloth, std::uint32_t a, std::uint
 {
     const std::uint32_t i = std::min(a, b), j = std::max(a, b);
     const auto found = std::lower_bound(
-        cloth.springs.begin(), cloth.springs.end(), std::pair(i, j),
+        cloth.springs.list.begin(), cloth.springs.list.end(), std::pair(i, j),
         [](const Spring& s, std::pair<std::uint32_t, std::uint32_t> p) { return std::pair(s.i, s.j) < p; });
-    if (found == cloth.springs.end() || found->i != i || found->j != j) return nowhere;
-    const bool exists = cloth.limited[static_cast<std::size_t>(found->spring_class)].exists;
+    if (found == cloth.springs.list.end() || found->i != i || found->j != j) return nowhere;
+    const bool exists = cloth.limits.of_class[static_cast<std::size_t>(found->spring_class)].exists;
     if (!exists || (!is_free(cloth, i) && !is_free(cloth, j))) return nowhere;
-    return static_cast<std::uint32_t>(found - cloth.springs.begin());
+    return static_cast<std::uint32_t>(found - cloth.springs.list.begin());
 }
 
 /// A bend spring (a, d) about the side (b, c), and the springs from a to b, or c, and on to d.
@@ -273,13 +273,13 @@ struct Fold {
 std::vector<Fold> folds_of(const ClothModel& cloth)
 {
     std::vector<Fold> folds;
-    if (cloth.graded || cloth.bends_by_constraints() || cloth.corrects_steps()) return folds;
+    if (cloth.plan.graded || cloth.limits.bends_by_constraints() || cloth.plan.corrects_steps()) return folds;
     struct Side {
         std::uint32_t b, c, opposite;
         auto operator<=>(const Side&) const = default;
     };
     std::vector<Side> sides;
-    for (const Triangle& t : cloth.triangles())
+    for (const Triangle& t : cloth.shape.triangles())
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t b = t[k], c = t[(k + 1) % 3];
             sides.push_back({std::min(b, c), std::max(b, c), t[(k + 2) % 3]});
@@ -294,7 +294,7 @@ std::vector<Fold> folds_of(const ClothModel& cloth)
                         {spring_between(cloth, a, between), spring_between(cloth, between, d)}};
         if (fold.spring == nowhere || fold.halves[0] == nowhere || fold.halves[1] == nowhere) continue;
         if (!is_free(cloth, a) || !is_free(cloth, d)) continue;
-        if (cloth.springs[fold.spring].spring_class != SpringClass::bend) continue;
+        if (cloth.springs.list[fold.spring].spring_class != SpringClass::bend) continue;
         folds.push_back(fold);
     }
     // A pair that is opposite to several sides is one spring.
@@ -319,13 +319,13 @@ SolverSprings solver_springs(const ClothModel& cloth)
 {
     SolverSprings list;
     const std::vector<Fold> folds = folds_of(cloth);
-    std::vector<bool> is_loose(cloth.springs.size(), false);
+    std::vector<bool> is_loose(cloth.springs.list.size(), false);
     for (const Fold& fold : folds) is_loose[fold.spring] = true;
-    std::vector<std::uint32_t> number(cloth.springs.size(), nowhere);
+    std::vector<std::uint32_t> number(cloth.springs.list.size(), nowhere);
     const auto add_where = [&](auto&& condition) {
-        for (std::size_t k = 0; k < cloth.springs.size(); ++k) {
-            const Spring& s = cloth.springs[k];
-            if (!cloth.limited[static_cast<std::size_t>(s.spring_class)].exists) continue;
+        for (std::size_t k = 0; k < cloth.springs.list.size(); ++k) {
+            const Spring& s = cloth.springs.list[k];
+            if (!cloth.limits.of_class[static_cast<std::size_t>(s.spring_class)].exists) continue;
             const int free_ends = int{is_free(cloth, s.i)} + int{is_free(cloth, s.j)};
             if (!condition(free_ends, is_loose[k])) continue;
             number[k] = static_cast<std::uint32_t>(list.springs.size());
@@ -440,7 +440,7 @@ void Hierarchy::build_mesh(const ClothModel& cloth)
     MeshGraph graph;
     graph.node_count = cloth.node_count();
     std::int32_t planes = node_planes;
-    if (cloth.is_second_order()) history_plane = std::exchange(planes, planes + history_planes);
+    if (cloth.plan.is_second_order()) history_plane = std::exchange(planes, planes + history_planes);
     SolverLevel* level =
         &append_mesh_level(static_cast<std::int32_t>(cloth.node_count()),
                            static_cast<std::int32_t>(list.springs.size()), planes, edge_planes);
@@ -451,7 +451,7 @@ void Hierarchy::build_mesh(const ClothModel& cloth)
         add_ends(*level, s.i, s.j);
         writer.add(static_cast<std::int32_t>(s.spring_class));
         if (e < list.coupling_count) {
-            const LimitedSprings& limited = cloth.limited[static_cast<std::size_t>(s.spring_class)];
+            const LimitedSprings& limited = cloth.limits.of_class[static_cast<std::size_t>(s.spring_class)];
             graph.couplings.push_back({s.i, s.j, std::max({limited.below, limited.beyond, 1e-9})});
             sides.push_back({s.i, s.j, e});
             sides.push_back({s.j, s.i, e});
@@ -470,7 +470,7 @@ void Hierarchy::build_mesh(const ClothModel& cloth)
     if (level->folds()) level->fold_start = writer.add_weighted(list.folds, 0);
     rest_lengths.reserve(list.springs.size());
     for (const Spring& s : list.springs) rest_lengths.push_back(static_cast<float>(s.rest_length));
-    if (cloth.graded)
+    if (cloth.plan.graded)
         for (const Spring& s : list.springs) scales.push_back(s.scale), bending.push_back(s.bending);
 
     do {

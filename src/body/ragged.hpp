@@ -20,11 +20,4 @@ struct Ragged {
     }
 };
 
-/// The other end of a spring, seen from a node.
-struct Neighbour {
-    std::uint32_t node = 0;
-    /// Index into ClothModel::springs; the sign of its force follows from node order.
-    std::uint32_t spring = 0;
-};
-
 }  // namespace pliant

@@ -49,12 +49,12 @@ inline bool set_mass(ClothModel& model, Hand& hand, double step_length)
 {
     if (hand.step == step_length) return false;
     hand.step = step_length;
-    const bool two = model.is_second_order();
+    const bool two = model.plan.is_second_order();
     const double mass =
         step_length <= 0 ? hand.mass
-        : two            ? hand.implicit_mass_in(model.implicit_step(step_length), model.parameters.damping)
-                         : hand.mass_in(step_length);
-    model.masses[hand.node] = mass;
+        : two ? hand.implicit_mass_in(model.plan.implicit_step(step_length), model.parameters.damping)
+              : hand.mass_in(step_length);
+    model.masses.kg[hand.node] = mass;
     return true;
 }
 
@@ -62,8 +62,8 @@ inline bool set_mass(ClothModel& model, Hand& hand, double step_length)
 inline GrabInput grab_input(const ClothModel& model, const Hand& hand, double step_length)
 {
     const double air = model.parameters.damping;
-    return model.is_second_order() ? hand.implicit_input(model.implicit_step(step_length), air)
-                                   : hand.input(step_length, air);
+    return model.plan.is_second_order() ? hand.implicit_input(model.plan.implicit_step(step_length), air)
+                                        : hand.input(step_length, air);
 }
 
 }  // namespace pliant

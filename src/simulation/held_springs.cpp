@@ -19,10 +19,10 @@ std::uint64_t key_of(std::uint32_t i, std::uint32_t j)
 /// The stretch from which a constraint can hold a spring of a class; below -1 where none does.
 double limit_of(const ClothModel& model, SpringClass of)
 {
-    const LimitedSprings& springs = model.limited[static_cast<std::size_t>(of)];
+    const LimitedSprings& springs = model.limits.of_class[static_cast<std::size_t>(of)];
     if (!(springs.beyond > 0)) return -2;
     // Too short counts, too: the mark alone decides.
-    return model.method == Method::acad && model.acad.compression ? -0.999 : springs.limit;
+    return model.plan.method == Method::acad && model.plan.acad.compression ? -0.999 : springs.limit;
 }
 
 }  // namespace
@@ -31,14 +31,14 @@ HeldSprings::HeldSprings(const ClothModel& model, std::span<const SpringListing>
                          std::span<const std::uint32_t> node_of_vertex)
 {
     if (model.hierarchy.empty()) return;
-    rows_ = model.solver == Solver::paper;
-    remembers_ = model.remembers_any();
-    marked_ = rows_ || model.corrects_steps() || remembers_;
+    rows_ = model.plan.solver == Solver::paper;
+    remembers_ = model.limits.remembers_any();
+    marked_ = rows_ || model.plan.corrects_steps() || remembers_;
     for (const SpringListing& spring : springs) {
         const double limit = limit_of(model, static_cast<SpringClass>(spring.kind));
         const double least = limit > -1 ? spring.rest_length * (1 + limit) : -1;
         springs_.push_back({spring.i, spring.j, static_cast<float>(least), -1,
-                            model.remembers(static_cast<SpringClass>(spring.kind))});
+                            model.limits.remembers(static_cast<SpringClass>(spring.kind))});
     }
     if (!marked_) return;
     const std::vector<std::int32_t>& topology = model.hierarchy.topology;
@@ -64,7 +64,7 @@ HeldSprings::HeldSprings(const ClothModel& model, std::span<const SpringListing>
 void HeldSprings::find_sheet_marks(const ClothModel& model)
 {
     const SolverLevel& level = model.hierarchy.levels.front();
-    const std::uint32_t columns = model.sheet->columns;
+    const std::uint32_t columns = model.shape.sheet->columns;
     for (Row& spring : springs_) {
         const auto row = static_cast<std::int32_t>(spring.i / columns),
                    column = static_cast<std::int32_t>(spring.i % columns);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -95,7 +96,7 @@ public:
     std::uint64_t total(Count count) const
     {
         std::uint64_t sum = 0;
-        for (const ClothModel& model : models) sum += (model.*count)();
+        for (const ClothModel& model : models) sum += std::invoke(count, model);
         return sum;
     }
 

@@ -36,8 +36,8 @@ LinearBenchmark::LinearBenchmark(const Scene& scene, std::span<const Vec3> posit
     models_.emplace_back(scene.cloth(0), without_tolerance(scene));
     ClothModel& model = models_.front();
     for (std::uint32_t vertex = 0; vertex < positions.size(); ++vertex) {  // rest lengths are known already
-        model.positions[model.node(vertex)] = positions[vertex];
-        model.velocities[model.node(vertex)] = velocities[vertex];
+        model.shape.positions[model.shape.node(vertex)] = positions[vertex];
+        model.shape.velocities[model.shape.node(vertex)] = velocities[vertex];
     }
     runner_ = make_runner(models_, backend, options);
     input_.step_length = step_length;

@@ -40,7 +40,7 @@ void Simulation::Implementation::set_state(const State& state)
         std::vector<Vec3> x(models[m].node_count()), v(models[m].node_count());
         for (std::size_t c = 0; c < places.size(); ++c) {
             if (places[c].model != m) continue;
-            const Vec3d origin = models[m].origin;
+            const Vec3d origin = models[m].shape.origin;
             for (std::size_t i = 0; i < places[c].node_count; ++i) {
                 const Vec3 at = state.cloths[c].positions[i];
                 x[places[c].node(i)] = origin == Vec3d{} ? at : to_float(to_double(at) - origin);
@@ -48,9 +48,9 @@ void Simulation::Implementation::set_state(const State& state)
             }
         }
         std::vector<bool> moved(x.size(), false);
-        for (const AttachedNode& a : models[m].attached) moved[a.node] = true;
+        for (const AttachedNode& a : models[m].attachments.nodes) moved[a.node] = true;
         for (std::size_t i = 0; i < x.size(); ++i)
-            if (!(models[m].inverse_mass(i) > 0) && !moved[i]) v[i] = {};  // a pin that stands still
+            if (!(models[m].masses.inverse(i) > 0) && !moved[i]) v[i] = {};  // a pin that stands still
         runner->write(m, x, v);
         if (!knows_who_rises) find_sunk(scene, models[m], x, state.time, lets_rise);
         // Of another method or solver, it says nothing here.
@@ -76,7 +76,7 @@ std::span<const Vec3> Simulation::Implementation::values(std::size_t cloth, Reso
     if (resource == Resource::normal) update_drawing(cloth);
     const ClothPlace& place = places[cloth];
     const std::vector<float>& all = read_model(place.model, resource);
-    const Vec3d origin = resource == Resource::position ? models[place.model].origin : Vec3d{};
+    const Vec3d origin = resource == Resource::position ? models[place.model].shape.origin : Vec3d{};
     target.values.resize(place.node_count);
     target.frame = state_number;
     if (place.node_of_vertex.empty() && origin == Vec3d{}) {
@@ -146,18 +146,19 @@ std::vector<SpringListing> Simulation::Implementation::springs(std::size_t cloth
     std::vector<SpringListing> listing;
     const auto add = [&](std::uint32_t i, std::uint32_t j, SpringClass of, double rest_length) {
         auto kind = static_cast<SpringKind>(of);
-        if (model.is_body() && of == SpringClass::shear) kind = SpringKind::internal;
+        if (model.plan.is_body() && of == SpringClass::shear) kind = SpringKind::internal;
         listing.push_back({i, j, kind, rest_length});
     };
-    if (model.springs.empty() && model.sheet) {
-        for_each_sheet_spring(*model.sheet, [&](std::uint32_t i, std::uint32_t j, const SheetNeighbour& n) {
-            add(i, j, n.spring_class, model.sheet->rest_lengths[static_cast<std::size_t>(n.rest)]);
-        });
+    if (model.springs.list.empty() && model.shape.sheet) {
+        for_each_sheet_spring(
+            *model.shape.sheet, [&](std::uint32_t i, std::uint32_t j, const SheetNeighbour& n) {
+                add(i, j, n.spring_class, model.shape.sheet->rest_lengths[static_cast<std::size_t>(n.rest)]);
+            });
         return listing;
     }
     std::vector<std::uint32_t> vertex_of(place.node_count);
     for (std::uint32_t k = 0; k < place.node_count; ++k) vertex_of[place.node(k) - place.first_node] = k;
-    for (const Spring& spring : model.springs) {
+    for (const Spring& spring : model.springs.list) {
         if (spring.i < place.first_node || spring.i >= place.first_node + place.node_count) continue;
         const auto [i, j] =
             std::minmax(vertex_of[spring.i - place.first_node], vertex_of[spring.j - place.first_node]);
@@ -174,7 +175,7 @@ std::span<const std::uint32_t> Simulation::Implementation::held_springs(std::siz
     ReadBack::Values<std::uint32_t>& target = read_backs.at(cloth).held;
     if (target.frame == state_number) return target.values;
     const ClothPlace& place = places[cloth];
-    if (models[place.model].is_body()) return {};  // they have no constraints
+    if (models[place.model].plan.is_body()) return {};  // they have no constraints
     held.resize(places.size());
     if (!held[cloth]) held[cloth].emplace(models[place.model], springs(cloth), place.node_of_vertex);
     const auto forces = multipliers(cloth);

@@ -101,8 +101,8 @@ std::vector<PinListing> Simulation::pins(std::size_t cloth) const
     std::vector<PinListing> listing;
     for (std::uint32_t k = 0; k < place.node_count; ++k) {
         const auto node = static_cast<std::uint32_t>(place.node(k));
-        if (model.inverse_mass(node) > 0) continue;
-        const bool moves = std::any_of(model.attached.begin(), model.attached.end(),
+        if (model.masses.inverse(node) > 0) continue;
+        const bool moves = std::any_of(model.attachments.nodes.begin(), model.attachments.nodes.end(),
                                        [&](const AttachedNode& a) { return a.node == node; });
         listing.push_back({k, moves});
     }
@@ -132,7 +132,7 @@ std::span<const float> Simulation::strains(std::size_t cloth) { return implement
 std::span<const Triangle> Simulation::triangles(std::size_t cloth) const
 {
     if (const auto* mesh = std::get_if<SurfaceMesh>(&scene().cloth(cloth).shape)) return mesh->triangles;
-    return implementation_->models[implementation_->places.at(cloth).model].triangles();
+    return implementation_->models[implementation_->places.at(cloth).model].shape.triangles();
 }
 
 std::span<const float> Simulation::multipliers(std::size_t cloth)
@@ -168,10 +168,13 @@ std::uint32_t Simulation::node_count(std::size_t cloth) const
     return implementation_->places.at(cloth).node_count;
 }
 std::size_t Simulation::body_count() const { return implementation_->report.bodies.size(); }
-std::uint64_t Simulation::spring_count() const { return implementation_->total(&ClothModel::spring_count); }
+std::uint64_t Simulation::spring_count() const
+{
+    return implementation_->total([](const ClothModel& model) { return model.springs.count; });
+}
 std::uint64_t Simulation::triangle_count() const
 {
-    return implementation_->total(&ClothModel::triangle_count);
+    return implementation_->total([](const ClothModel& model) { return model.shape.triangle_count(); });
 }
 
 double Simulation::step_length() const
@@ -191,7 +194,7 @@ std::string Simulation::resolution_warning() const
         const auto& place = implementation_->places[c];
         const ClothModel& model = implementation_->models[place.model];
         const double farthest = double{place.farthest};
-        const double shortest = model.shortest_rest_length();
+        const double shortest = model.springs.shortest;
         if (farthest * half_ulp > noticeable * shortest) {
             char text[256];
             std::snprintf(text, sizeof text,
@@ -202,7 +205,7 @@ std::string Simulation::resolution_warning() const
             std::snprintf(distance, sizeof distance, "at %.3g m from ", farthest);
             const std::string& name = scene().cloth(c).name;
             // The coordinates of a body begin near its middle, wherever it is.
-            if (model.is_body())
+            if (model.plan.is_body())
                 return "body '" + name + "': " + distance + "its middle" + text +
                        "use a mesh without edges as short as that";
             return "cloth '" + name + "': " + distance + "the origin" + text +

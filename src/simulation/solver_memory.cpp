@@ -11,7 +11,7 @@ std::vector<ArenaRange> solver_memory_ranges(const ClothModel& model)
 {
     const Hierarchy& hierarchy = model.hierarchy;
     // A step of ACAD that makes springs good remembers nothing of these.
-    if (hierarchy.empty() || model.solver == Solver::paper || model.corrects_steps()) return {};
+    if (hierarchy.empty() || model.plan.solver == Solver::paper || model.plan.corrects_steps()) return {};
     const SolverLevel& cloth = hierarchy.levels.front();
     const auto size = static_cast<std::size_t>(cloth.size);
     const auto planes = [&](int first, int count) {
@@ -20,8 +20,8 @@ std::vector<ArenaRange> solver_memory_ranges(const ClothModel& model)
                           static_cast<std::size_t>(count) * size};
     };
     std::vector<ArenaRange> kept = {planes(plane_touched, plane_firm + 1 - plane_touched)};
-    if (model.is_second_order()) kept.push_back(planes(hierarchy.history_plane, history_planes));
-    if (model.is_sheet())
+    if (model.plan.is_second_order()) kept.push_back(planes(hierarchy.history_plane, history_planes));
+    if (model.plan.on_grid)
         kept.push_back(planes(plane_slip, 8));
     else
         kept.push_back({static_cast<std::size_t>(cloth.edge_base) +
@@ -61,7 +61,8 @@ void put_solver_memory(PassRunner& runner, const ClothModel& model, std::uint32_
 void fit_solver_memory(PassRunner& runner, const ClothModel& model, std::uint32_t index, double from,
                        double to)
 {
-    if (!(from > to) || !model.remembers_any()) return;  // a limit that is stiffer than need be is as good
+    if (!(from > to) || !model.limits.remembers_any())
+        return;  // a limit that is stiffer than need be is as good
     const SolverLevel& cloth = model.hierarchy.levels.front();
     const ArenaRange limits = solver_memory_ranges(model).back();  // slips, and then as many stiffnesses
     std::vector<float> numbers;
@@ -69,7 +70,7 @@ void fit_solver_memory(PassRunner& runner, const ClothModel& model, std::uint32_
     const std::span slips = std::span(numbers).first(limits.count / 2);
     const std::span stiffnesses = std::span(numbers).last(limits.count / 2);
     const auto class_of = [&](std::size_t k) {
-        if (model.is_sheet())
+        if (model.plan.on_grid)
             return k / static_cast<std::size_t>(cloth.size) % 2 == 0 ? SpringClass::structural
                                                                      : SpringClass::shear;
         return static_cast<SpringClass>(
@@ -80,15 +81,16 @@ void fit_solver_memory(PassRunner& runner, const ClothModel& model, std::uint32_
     } softest[spring_class_count];
     for (std::size_t c = 0; c < spring_class_count; ++c) {
         const auto of = static_cast<SpringClass>(c);
-        if (model.remembers(of)) softest[c] = {model.softest_limit(of, from), model.softest_limit(of, to)};
+        if (model.limits.remembers(of))
+            softest[c] = {model.limits.softest(of, from), model.limits.softest(of, to)};
     }
     for (std::size_t k = 0; k < slips.size(); ++k) {
         const double stiffness{stiffnesses[k]};
         if (!(stiffness > 0)) continue;  // new, or none
         Softest least = softest[static_cast<std::size_t>(class_of(k))];
         const auto edge = static_cast<std::int32_t>(k);
-        if (!model.is_sheet() && edge >= cloth.held && edge < cloth.loose) {
-            least = {model.held_softest_limit(from), model.held_softest_limit(to)};
+        if (!model.plan.on_grid && edge >= cloth.held && edge < cloth.loose) {
+            least = {model.limits.softest_held(from), model.limits.softest_held(to)};
         }
         slips[k] =
             static_cast<float>(slips[k] * std::max(stiffness, least.from) / std::max(stiffness, least.to));

@@ -17,8 +17,8 @@ void visit_gaps(const Collider& collider, const ClothModel& model, std::span<con
 {
     const auto shape = make_collider<double>(placed_at(collider, time));
     for (std::size_t i = 0; i < positions.size(); ++i) {
-        if (!(model.inverse_mass(i) > 0)) continue;
-        const Vec3d x = to_double(positions[i]) + model.origin;
+        if (!(model.masses.inverse(i) > 0)) continue;
+        const Vec3d x = to_double(positions[i]) + model.shape.origin;
         if (!visit(Laws<double>::collider_gap(shape, {x.x, x.y, x.z}).w)) return;
     }
 }
@@ -44,7 +44,7 @@ std::vector<std::string> starts_inside(const Scene& scene, const Cloth& cloth, c
     for (std::size_t k = 0; k < scene.colliders.size(); ++k) {
         std::size_t count = 0;
         double deepest = 0;
-        visit_gaps(scene.colliders[k], model, model.positions, 0, [&](double gap) {
+        visit_gaps(scene.colliders[k], model, model.shape.positions, 0, [&](double gap) {
             if (-gap > noticeable) {
                 ++count;
                 deepest = std::max(deepest, -gap);
@@ -52,7 +52,7 @@ std::vector<std::string> starts_inside(const Scene& scene, const Cloth& cloth, c
             return true;
         });
         if (count == 0) continue;
-        sentences.push_back((model.is_body() ? "body '" : "cloth '") + cloth.name + "': " +
+        sentences.push_back((model.plan.is_body() ? "body '" : "cloth '") + cloth.name + "': " +
                             formatted("%zu nodes start inside colliders[%zu], the deepest by %.3g m: they "
                                       "are let out slowly, and stay where springs pull them harder; move "
                                       "the cloth or the collider",

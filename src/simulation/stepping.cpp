@@ -67,7 +67,7 @@ Simulation::Implementation::Implementation(const Scene& given, const SimulationO
         start_runner(options);
     }
     take_measures();
-    for (ClothModel& model : models) model.forget_start();
+    for (ClothModel& model : models) model.shape.forget_start();
 }
 
 void Simulation::Implementation::make_models()
@@ -75,15 +75,15 @@ void Simulation::Implementation::make_models()
     models.reserve(scene.cloth_count());
     for (std::size_t c = 0; c < scene.cloth_count(); ++c) {
         ClothModel model(scene.cloth(c), scene);
-        ClothPlace place{static_cast<std::uint32_t>(models.size()), 0, model.node_count(), 0, 0.0f,
-                         std::exchange(model.node_of_vertex, {})};
-        if (model.is_body()) report.bodies.push_back({c});
+        ClothPlace place{static_cast<std::uint32_t>(models.size()),    0, model.node_count(), 0, 0.0f,
+                         std::exchange(model.shape.node_of_vertex, {})};
+        if (model.plan.is_body()) report.bodies.push_back({c});
         const auto warn = [&](const std::vector<std::string>& sentences) {
             start_warnings.insert(start_warnings.end(), sentences.begin(), sentences.end());
         };
         warn(starts_inside(scene, scene.cloth(c), model));
-        find_sunk(scene, model, model.positions, 0, lets_rise);
-        if (model.is_body() && model.body->constrained) warn(fast_targets(scene.cloth(c)));
+        find_sunk(scene, model, model.shape.positions, 0, lets_rise);
+        if (model.plan.is_body() && model.body->constrained) warn(fast_targets(scene.cloth(c)));
         const auto host = std::find_if(models.begin(), models.end(),
                                        [&](const ClothModel& other) { return other.can_take(model); });
         if (host == models.end()) {
@@ -98,7 +98,7 @@ void Simulation::Implementation::make_models()
     }
     for (ClothPlace& place : places)
         for (const Vec3& x :
-             std::span(models[place.model].positions).subspan(place.first_node, place.node_count))
+             std::span(models[place.model].shape.positions).subspan(place.first_node, place.node_count))
             place.farthest = std::max({place.farthest, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
 }
 
@@ -132,8 +132,8 @@ std::pair<std::uint64_t, double> Simulation::Implementation::steps_of(double dur
     // Limits that remember are made right from step to step. In long steps they are stable but wrong, so such
     // steps are divided. Springs without limits may take long steps: a scene finds its rest by them.
     constexpr double longest = 1 / 20.0;
-    const bool remembers =
-        std::any_of(models.begin(), models.end(), [](const ClothModel& m) { return m.remembers_any(); });
+    const bool remembers = std::any_of(models.begin(), models.end(),
+                                       [](const ClothModel& m) { return m.limits.remembers_any(); });
     const auto divided = [&](double count, double step) {
         const double parts = remembers ? std::max(1.0, std::ceil(step / longest * (1 - rounding))) : 1;
         return std::pair(static_cast<std::uint64_t>(count * parts), step / parts);
@@ -195,7 +195,7 @@ void Simulation::Implementation::run_steps(std::uint32_t steps, double step)
     run_program(program, steps, step);
     parity = program.parity_after;
     for (std::uint32_t m = 0; m < models.size(); ++m)
-        if (is_implicit(models[m])) cut_steps(m, steps, step, from_parity, stretches_before[m]);
+        if (models[m].plan.is_implicit()) cut_steps(m, steps, step, from_parity, stretches_before[m]);
     report.simulated_seconds = on_frame(report.simulated_seconds + steps * step, steps * step);
     report.steps += steps;
     if (uses_solver(stepped_method(scene))) count_solves();
@@ -214,7 +214,7 @@ Kept Simulation::Implementation::kept(std::uint32_t model, std::uint32_t steps,
                                       std::uint32_t from_parity) const
 {
     // One step leaves the state that it starts from where it is; its three parts do not.
-    const bool may_overwrite = steps > 1 || models[model].newton.step_cuts > 1;
+    const bool may_overwrite = steps > 1 || models[model].plan.newton.step_cuts > 1;
     return {model, from_parity, may_overwrite, solver_memory_ranges(models[model])};
 }
 
@@ -231,15 +231,15 @@ void Simulation::Implementation::cut_steps(std::uint32_t model, std::uint32_t st
     // The force of a limit is a step behind. What pulls at once, as a pin that begins to move, stretches it
     // by as much as a step is long, more than this.
     constexpr double at_once = 0.01, helps = 0.8;
-    const bool holds = models[model].does_not_stretch(step);
-    const double limit = models[model].largest_limit();
+    const bool holds = models[model].limits.does_not_stretch(step);
+    const double limit = models[model].limits.largest();
     // Cloth that is stretched already cannot reach as far as it is pulled, in steps of any length.
     const double most = stretch_before < limit + 2 * at_once ? std::max(stretch_before, limit) + at_once
                                                              : std::numeric_limits<double>::infinity();
     const auto stretch_now = [&] { return holds ? runner->measures(model).max_stretch : 0; };
     double residual = solver_number(model, scalar_residual_max), stretch = stretch_now();
     std::uint32_t all_parts = 1;
-    for (std::uint32_t cut = 0; cut < models[model].newton.step_cuts; ++cut) {
+    for (std::uint32_t cut = 0; cut < models[model].plan.newton.step_cuts; ++cut) {
         const bool is_solved = residual <= double{solved_residual};
         if (is_solved && !(stretch > most)) break;
         runner->put_back(kept(model, steps, from_parity));
@@ -274,7 +274,7 @@ void Simulation::Implementation::count_solves()
         s.iterations_max = std::max(s.iterations_max, whole(scalar_iterations_max));
         s.residual_max = larger(s.residual_max, number(scalar_residual_max));
         s.energy_lost += number(scalar_energy_lost);
-        if (is_implicit(models[c])) s.searches_refused += whole(scalar_refused);
+        if (models[c].plan.is_implicit()) s.searches_refused += whole(scalar_refused);
         s.active_max = std::max<std::uint64_t>(s.active_max, whole(scalar_active_max));
         s.active_last += whole(scalar_active_last);
         s.newton_last = std::max(s.newton_last, whole(scalar_newton_last));
@@ -308,7 +308,7 @@ const Program& Simulation::Implementation::frame_program(std::uint32_t steps, st
         Program program{next_program_id++, {}, 0};
         program.parity_after = append_frame(models, steps, from_parity, program.calls, grabbed, only);
         for (std::uint32_t m = 0; only == no_cloth && m < models.size(); ++m)
-            if (is_implicit(models[m]) && models[m].newton.step_cuts > 0)
+            if (models[m].plan.is_implicit() && models[m].plan.newton.step_cuts > 0)
                 program.keeps.push_back(kept(m, steps, from_parity));
         found = programs.emplace(key, std::move(program)).first;
     }
@@ -358,11 +358,11 @@ void Simulation::Implementation::place_attached(std::uint32_t steps, double step
 {
     attached.resize(models.size());
     for (std::size_t c = 0; c < models.size(); ++c) {
-        const std::size_t count = models[c].attached.size();
+        const std::size_t count = models[c].attachments.nodes.size();
         attached[c].resize(count * steps);
         for (std::size_t s = 0; count > 0 && s < steps; ++s)
-            models[c].place_attached(report.simulated_seconds + static_cast<double>(s + 1) * step,
-                                     std::span(attached[c]).subspan(s * count, count));
+            models[c].attachments.place(report.simulated_seconds + static_cast<double>(s + 1) * step,
+                                        std::span(attached[c]).subspan(s * count, count));
     }
 }
 
@@ -413,9 +413,9 @@ void Simulation::Implementation::grab(std::size_t cloth, std::size_t node, Vec3d
     const auto at = static_cast<std::uint32_t>(place.node(node));
     const bool same = hand && hand->model == place.model && hand->node == at;
     if (!same) release();
-    if (!(model.inverse_mass(at) > 0)) return;  // pinned
-    if (!same) hand = Hand{.model = place.model, .node = at, .mass = model.masses[at]};
-    hand->target = target - model.origin;
+    if (!(model.masses.inverse(at) > 0)) return;  // pinned
+    if (!same) hand = Hand{.model = place.model, .node = at, .mass = model.masses.kg[at]};
+    hand->target = target - model.shape.origin;
     if (hand->stiffness != stiffness || hand->damping != damping) hold(0);
     hand->stiffness = stiffness;
     hand->damping = damping;
@@ -440,12 +440,12 @@ void Simulation::Implementation::take_measures()
         m.max_penetration = larger(m.max_penetration, totals.max_penetration);
         speed2 = larger(speed2, totals.max_speed2);
         stretch_sum += totals.stretch_sum;
-        measured_springs += models[c].measured_spring_count();
+        measured_springs += models[c].springs.measured_count;
         m.kinetic_energy += totals.kinetic_energy;
         m.elastic_energy += totals.elastic_energy;
         m.potential_energy += g * totals.height_moment;
-        if (models[c].is_body())
-            m.potential_energy -= models[c].mass() * dot(models[c].origin, scene.gravity);
+        if (models[c].plan.is_body())
+            m.potential_energy -= models[c].masses.sum() * dot(models[c].shape.origin, scene.gravity);
         m.non_finite += static_cast<std::uint64_t>(totals.non_finite);
     }
     m.max_speed = std::sqrt(speed2);

@@ -9,27 +9,22 @@
 
 namespace pliant {
 
-bool is_implicit(const ClothModel& cloth)
-{
-    return !cloth.is_body() && uses_solver(cloth.method) && cloth.solver != Solver::paper &&
-           !cloth.corrects_steps();
-}
-
 namespace {
 
 void append_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step, std::uint32_t parity,
                  std::vector<Call>& calls)
 {
-    if (cloth.is_body())
-        append_body_step(cloth, index, step, parity, calls);
-    else if (!uses_solver(cloth.method))
-        append_mass_spring_step(cloth, index, step, parity, calls);
-    else if (cloth.solver == Solver::paper)
-        append_paper_step(cloth, index, step, parity, calls);
-    else if (is_implicit(cloth))
-        append_constraint_step(cloth, index, step, parity, calls);
-    else
-        append_acad_step(cloth, index, step, parity, calls);
+    using Step = SteppingPlan::Step;
+    switch (cloth.plan.step) {
+        case Step::springs:
+        case Step::stages:
+        case Step::body_springs:
+        case Step::body_list: return append_mass_spring_step(cloth, index, step, parity, calls);
+        case Step::body_volume: return append_volume_step(cloth, index, step, parity, calls);
+        case Step::newton: return append_constraint_step(cloth, index, step, parity, calls);
+        case Step::acad: return append_acad_step(cloth, index, step, parity, calls);
+        case Step::paper: return append_paper_step(cloth, index, step, parity, calls);
+    }
 }
 
 /// The loops of linear systems and of the line search are within Newton's: where it has ended, they have,
@@ -63,10 +58,10 @@ std::uint32_t append_frame(std::span<const ClothModel> cloths, std::uint32_t ste
     const std::uint32_t first = only == no_cloth ? 0 : only;
     const std::uint32_t end = only == no_cloth ? static_cast<std::uint32_t>(cloths.size()) : only + 1;
     for (std::uint32_t c = first; c < end; ++c)
-        if (!cloths[c].hierarchy.empty()) calls.push_back({Pass::solve_reset, c, parity, 0});
+        if (cloths[c].plan.has_solver()) calls.push_back({Pass::solve_reset, c, parity, 0});
     for (std::uint32_t step = 0; step < steps; ++step, parity ^= 1)
         for (std::uint32_t c = first; c < end; ++c) {
-            if (c == grabbed && !is_implicit(cloths[c])) calls.push_back({Pass::grab, c, parity, step});
+            if (c == grabbed && !cloths[c].plan.is_implicit()) calls.push_back({Pass::grab, c, parity, step});
             append_step(cloths[c], c, step, parity, calls);
         }
     for (std::uint32_t c = first; c < end; ++c) append_measures(cloths[c], c, parity, steps - 1, calls);

@@ -20,8 +20,4 @@ std::uint32_t append_frame(std::span<const ClothModel> cloths, std::uint32_t ste
                            std::vector<Call>& calls, std::uint32_t grabbed = no_cloth,
                            std::uint32_t only = no_cloth);
 
-/// Whether a cloth's steps are those of newton_multigrid alone, which say how far from solved they are and
-/// have the hand's pull within them.
-bool is_implicit(const ClothModel& cloth);
-
 }  // namespace pliant

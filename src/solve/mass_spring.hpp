@@ -9,7 +9,8 @@
 
 namespace pliant {
 
-/// Appends one symplectic Euler step of one cloth, from the state copy `parity` to the other.
+/// Appends one explicit step of springs alone, of a cloth or of soft bodies, from the state copy `parity` to
+/// the other.
 void append_mass_spring_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step,
                              std::uint32_t parity, std::vector<Call>& calls);
 
@@ -17,9 +18,9 @@ void append_mass_spring_step(const ClothModel& cloth, std::uint32_t index, std::
 void append_attachments(const ClothModel& cloth, std::uint32_t index, std::uint32_t step,
                         std::uint32_t parity, std::vector<Call>& calls);
 
-/// Appends the wind's force on one cloth before a step, where there is air.
-void append_wind(const ClothModel& cloth, std::uint32_t index, std::uint32_t step, std::uint32_t parity,
-                 std::vector<Call>& calls);
+/// Appends the forces from outside on one cloth before a step: of the wind, where there is air, and loads.
+void append_external_forces(const ClothModel& cloth, std::uint32_t index, std::uint32_t step,
+                            std::uint32_t parity, std::vector<Call>& calls);
 
 /// Appends the measures of the state copy `parity` of one cloth, reduced to one value.
 void append_measures(const ClothModel& cloth, std::uint32_t index, std::uint32_t parity, std::uint32_t step,

@@ -1,5 +1,6 @@
 #include "solve/newton_multigrid.hpp"
 
+#include "solve/chosen_passes.hpp"
 #include "solve/mass_spring.hpp"
 
 namespace pliant {
@@ -22,7 +23,7 @@ public:
           parity_(parity),
           calls_(calls),
           level_count_(static_cast<std::uint32_t>(cloth.hierarchy.level_count())),
-          on_mesh_(!cloth.is_sheet())
+          on_mesh_(!cloth.plan.on_grid)
     {
     }
 
@@ -34,9 +35,9 @@ public:
         const std::uint32_t enough = enough_iterations(cloth_), most = while_unsolved * enough;
         for (std::uint32_t k = 1; k <= most; ++k) {
             newton_iteration(k == most);
-            if (cloth_.meets_colliders && k == (enough + 1) / 2) renew_contact();
+            if (cloth_.plan.meets_colliders && k == (enough + 1) / 2) renew_contact();
         }
-        if (cloth_.remembers_any()) {
+        if (cloth_.limits.remembers_any()) {
             polish();
             add(on_mesh_ ? Pass::mesh_multiply : Pass::sheet_multiply);
         }
@@ -72,7 +73,7 @@ public:
 
     void prepare_linear_solve()
     {
-        if (cloth_.newton.preconditioner == Preconditioner::multigrid) coarsen();
+        if (cloth_.plan.newton.preconditioner == Preconditioner::multigrid) coarsen();
         add(Pass::linear_begin, Guard::newton);
         add(Pass::linear_start, Guard::newton);
     }
@@ -143,12 +144,12 @@ private:
     void newton_iteration(bool is_last)
     {
         prepare_linear_solve();
-        for (std::uint32_t k = 0; k < cloth_.newton.linear_iterations; ++k) linear_iteration();
+        for (std::uint32_t k = 0; k < cloth_.plan.newton.linear_iterations; ++k) linear_iteration();
         add(Pass::search_begin, Guard::newton);
         add(Pass::newton_move, Guard::newton);
         for (std::uint32_t k = 0; k < search_tries; ++k) {
             if (k > 0) add(Pass::search_move, Guard::search);
-            evaluate(Guard::search, is_last && !cloth_.remembers_any() ? detail_last_look : 0);
+            evaluate(Guard::search, is_last && !cloth_.limits.remembers_any() ? detail_last_look : 0);
             add(Pass::search_check, Guard::search);
         }
         add(Pass::newton_check, Guard::newton);
@@ -156,7 +157,7 @@ private:
 
     void precondition()
     {
-        switch (cloth_.newton.preconditioner) {
+        switch (cloth_.plan.newton.preconditioner) {
             case Preconditioner::multigrid: return cycle(0);
             case Preconditioner::jacobi: return add(Pass::linear_jacobi, Guard::linear);
             case Preconditioner::none: return add(Pass::linear_plain, Guard::linear);
@@ -171,7 +172,7 @@ private:
             add(Pass::bottom_solve, Guard::linear, level);
             return;
         }
-        const std::uint32_t sweeps = cloth_.newton.smoothing;
+        const std::uint32_t sweeps = cloth_.plan.newton.smoothing;
         const Pass smooth = on_mesh_ ? Pass::mesh_smooth : Pass::level_smooth;
         std::uint32_t copy = 0;
         for (std::uint32_t k = 1; k < sweeps; ++k, copy ^= 1)
@@ -200,7 +201,7 @@ std::uint32_t enough_iterations(const ClothModel& cloth)
     // ACAD bounds stretch by stiff limits that come and go; a step of it that is left half solved wins
     // energy.
     constexpr std::uint32_t of_acad = 4;
-    return cloth.newton.newton_iterations * (cloth.method == Method::acad ? of_acad : 1);
+    return cloth.plan.newton.newton_iterations * (cloth.plan.method == Method::acad ? of_acad : 1);
 }
 
 void append_acad_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step, std::uint32_t parity,
@@ -233,16 +234,13 @@ void append_linear_iterations(const ClothModel& cloth, std::uint32_t index, std:
 void append_multipliers(const ClothModel& cloth, std::uint32_t index, std::uint32_t parity,
                         std::vector<Call>& calls)
 {
-    calls.push_back({cloth.solver == Solver::paper ? Pass::paper_export
-                     : cloth.is_sheet()            ? Pass::sheet_multipliers
-                                                   : Pass::mesh_multipliers,
-                     index, parity, 0});
+    calls.push_back({passes_of(cloth.plan).multipliers, index, parity, 0});
 }
 
 void append_constraint_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step,
                             std::uint32_t parity, std::vector<Call>& calls)
 {
-    append_wind(cloth, index, step, parity, calls);
+    append_external_forces(cloth, index, step, parity, calls);
     append_attachments(cloth, index, step, parity, calls);
     StepWriter(cloth, index, step, parity, calls).step();
 }

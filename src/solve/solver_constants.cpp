@@ -14,15 +14,16 @@ namespace {
 /// The limits of ACAD are no stiffer than the step can solve: 1 / (1 / K + a) with the compliance a.
 ///   Steps that are corrected: K = 300 m / dt^2. A node that comes with the length of a spring a step is
 ///   stopped within 6 % of it.
-///   Implicit steps, longer: K is that of ClothModel::firm_limit. A pull passes through all springs
+///   Implicit steps, longer: K is that of SpringLimits::firm_limit. A pull passes through all springs
 ///   across the cloth in a step.
 /// 1e6 N/m on soft springs is 10,000 m / dt^2 and more. What a solve leaves open of that wins energy, and the
 /// cloth boils.
 template <class T>
 void soften_limits_of_acad(SolverConstants<T>& c, const ClothModel& model, double step_length)
 {
-    const double in_a_row = model.springs_across * model.springs_across;
-    const double most = (model.corrects_steps() ? 300 : ClothModel::firm_limit * in_a_row) * model.mean_mass;
+    const double in_a_row = model.springs.across * model.springs.across;
+    const double most =
+        (model.plan.corrects_steps() ? 300 : SpringLimits::firm_limit * in_a_row) * model.masses.mean;
     const auto softened = [&](T k) {
         return static_cast<T>(k * most / (most + k * step_length * step_length));
     };
@@ -37,7 +38,7 @@ template <class T>
 void set_acad(SolverConstants<T>& c, const ClothModel& model)
 {
     const auto number = [](double a) { return static_cast<T>(a); };
-    const AcadOptions& acad = model.acad;
+    const AcadOptions& acad = model.plan.acad;
     const bool to_rest = acad.target == AcadTarget::rest;
     const double hold = acad.deactivate_at.value_or(acad.activate_at);
     // A limit may act before the threshold is reached in this very step; a constraint to rest length must
@@ -76,8 +77,8 @@ SolverConstants<T> make_solver_constants(const ClothModel& model, double step_le
     c.inverse_dt = number(step_length > 0 ? 1 / step_length : 0);
     c.decay = step.decay;
     c.thickness = step.thickness;
-    if (model.is_second_order()) {
-        const double short_step = model.implicit_step(step_length);
+    if (model.plan.is_second_order()) {
+        const double short_step = model.plan.implicit_step(step_length);
         c.history_plane = model.hierarchy.history_plane;
         c.short_dt = number(short_step);
         c.inverse_short_dt = number(short_step > 0 ? 1 / short_step : 0);
@@ -86,7 +87,7 @@ SolverConstants<T> make_solver_constants(const ClothModel& model, double step_le
     }
     c.gravity = step.gravity;
     for (std::size_t k = 0; k < spring_class_count; ++k) {
-        const LimitedSprings& springs = model.limited[k];
+        const LimitedSprings& springs = model.limits.of_class[k];
         const double damping = springs.exists ? model.parameters.spring_damping[k] : 0;
         c.has[k] = springs.exists;
         c.has_damping |= damping > 0;
@@ -95,7 +96,7 @@ SolverConstants<T> make_solver_constants(const ClothModel& model, double step_le
                        number(springs.limit),
                        number(springs.beyond),
                        number(springs.compressed),
-                       number(step_length > 0 ? damping / model.implicit_step(step_length) : 0),
+                       number(step_length > 0 ? damping / model.plan.implicit_step(step_length) : 0),
                        number(springs.below > 0 ? springs.limit : -1),
                        number(1)};
     }
@@ -108,12 +109,12 @@ SolverConstants<T> make_solver_constants(const ClothModel& model, double step_le
         c.hand_pull = step.grab_pull;
         c.hand_hold = step.grab_hold;
     }
-    c.exact_bend = model.bends_by_constraints();
-    c.is_graded = model.graded;
-    if (model.method == Method::acad) soften_limits_of_acad(c, model, step_length);
-    if (model.corrects_steps()) set_acad(c, model);
+    c.exact_bend = model.limits.bends_by_constraints();
+    c.is_graded = model.plan.graded;
+    if (model.plan.method == Method::acad) soften_limits_of_acad(c, model, step_length);
+    if (model.plan.corrects_steps()) set_acad(c, model);
     std::copy(std::begin(step.rest_lengths), std::end(step.rest_lengths), c.rest_lengths);
-    const NewtonMultigridOptions& newton = model.newton;
+    const NewtonMultigridOptions& newton = model.plan.newton;
     // Of the inertia m / dt^2 of a node: 100 keeps what a step presses in to a hundredth of its way, and lets
     // a node that lies still stay in touch when Newton's method moves it by a hundredth of g dt^2.
     constexpr double by_mass = 100;
@@ -121,30 +122,30 @@ SolverConstants<T> make_solver_constants(const ClothModel& model, double step_le
     c.contact_stiffness = number(c.contact_is_by_mass ? by_mass : newton.contact_stiffness);
     c.slip = number(newton.friction_speed * step_length);
     // BDF2 does not damp away what a step leaves.
-    const double part = model.is_second_order() ? 1.0 / 3 : 1;
+    const double part = model.plan.is_second_order() ? 1.0 / 3 : 1;
     c.linear_tolerance = number(newton.linear_tolerance * part);
     c.newton_tolerance = number(newton.newton_tolerance * part);
     c.enough_iterations = number(enough_iterations(model));
-    if (step_length > 0 && !model.corrects_steps()) {
-        const double softest = model.softest_limit(step_length);
+    if (step_length > 0 && !model.plan.corrects_steps()) {
+        const double softest = model.limits.softest(step_length);
         // A spring that a corner hangs by carries what twenty others do.
         constexpr double stiffest = 20;
         c.softest_limit = number(softest);
         c.stiffest_limit = number(stiffest * softest);
         for (std::size_t k = 0; k < spring_class_count; ++k) {
-            if (!model.remembers(static_cast<SpringClass>(k))) continue;
+            if (!model.limits.remembers(static_cast<SpringClass>(k))) continue;
             c.remembers[k] = true;
-            c.curves[k].kept = number(model.kept_when_slack());
-            c.compliance[k] = number(1 / model.limited[k].beyond);
-            c.softest[k] = number(model.softest_limit(static_cast<SpringClass>(k), step_length));
+            c.curves[k].kept = number(model.limits.kept_when_slack());
+            c.compliance[k] = number(1 / model.limits.of_class[k].beyond);
+            c.softest[k] = number(model.limits.softest(static_cast<SpringClass>(k), step_length));
         }
-        c.polish_reach = number(model.polish_reach());
-        c.softest_held_limit = number(ClothModel::held_limit * softest);
-        if (c.remembers[0]) c.softest_held = number(model.held_softest_limit(step_length));
+        c.polish_reach = number(model.limits.polish_reach());
+        c.softest_held_limit = number(SpringLimits::held_limit * softest);
+        if (c.remembers[0]) c.softest_held = number(model.limits.softest_held(step_length));
     }
     // Chebyshev's points on the upper part of the spectrum of D^-1 A, which the smoother has to take care of:
     // the higher its degree, the larger the part that it can. Measured by V-cycles (docs/notes).
-    const double greatest = model.spectrum_end;
+    const double greatest = model.springs.spectrum_end;
     constexpr std::uint32_t high_degree = 5;
     const double least = greatest / (newton.smoothing < high_degree ? 8 : 32);
     for (std::uint32_t k = 0; k < newton.smoothing; ++k)
@@ -161,7 +162,7 @@ void set_first_numbers(const ClothModel& model, const Hierarchy& hierarchy, T* a
     const ConstraintRows& rows = hierarchy.constraints;
     std::transform(rows.numbers.begin(), rows.numbers.end(), arena + rows.first_number,
                    [](double a) { return static_cast<T>(a); });
-    if (model.solver == Solver::paper) return;
+    if (model.plan.solver == Solver::paper) return;
     const SolverLevel& cloth = hierarchy.levels.front();
     const auto set_edges = [&](const std::vector<double>& values, int plane) {
         std::transform(values.begin(), values.end(), arena + cloth.edge_base + plane * cloth.edge_size,
@@ -173,17 +174,18 @@ void set_first_numbers(const ClothModel& model, const Hierarchy& hierarchy, T* a
     const auto at = [&](int plane, std::int32_t o) -> T& {
         return arena[static_cast<std::size_t>(cloth.base + plane * cloth.size + o)];
     };
-    if (model.is_sheet())
-        for_each_sheet_spring(*model.sheet, [&](std::uint32_t i, std::uint32_t, const SheetNeighbour& n) {
-            // The numbers of the forward neighbours in kernels/sheet.kernel.glsl.
-            const int k = n.column_offset == 2 ? 4
-                          : n.row_offset == 2  ? 5
-                          : n.row_offset == 0  ? 0
-                                               : n.column_offset + 2;
-            at(plane_scale + k, Hierarchy::offset(cloth, static_cast<std::int32_t>(i / model.sheet->columns),
-                                                  static_cast<std::int32_t>(i % model.sheet->columns))) =
-                T(1);
-        });
+    if (model.plan.on_grid)
+        for_each_sheet_spring(
+            *model.shape.sheet, [&](std::uint32_t i, std::uint32_t, const SheetNeighbour& n) {
+                // The numbers of the forward neighbours in kernels/sheet.kernel.glsl.
+                const int k = n.column_offset == 2 ? 4
+                              : n.row_offset == 2  ? 5
+                              : n.row_offset == 0  ? 0
+                                                   : n.column_offset + 2;
+                at(plane_scale + k,
+                   Hierarchy::offset(cloth, static_cast<std::int32_t>(i / model.shape.sheet->columns),
+                                     static_cast<std::int32_t>(i % model.shape.sheet->columns))) = T(1);
+            });
 }
 
 SumParts::SumParts(const ClothModel& model, const Hierarchy& hierarchy)

@@ -26,8 +26,8 @@ StepConstants<T>::StepConstants(const ClothModel& model, double step_length)
         stiffness[k] = number(p.stiffness[k]);
         damping[k] = number(p.spring_damping[k]);
     }
-    if (model.sheet)
-        for (std::size_t k = 0; k < 5; ++k) rest_lengths[k] = number(model.sheet->rest_lengths[k]);
+    if (model.shape.sheet)
+        for (std::size_t k = 0; k < 5; ++k) rest_lengths[k] = number(model.shape.sheet->rest_lengths[k]);
 }
 
 template <class T>

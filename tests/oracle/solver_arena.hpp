@@ -28,7 +28,7 @@ public:
         Vector all(static_cast<Eigen::Index>(3 * model_.node_count()));
         Eigen::Index row = 0;
         for (std::uint32_t vertex = 0; vertex < model_.node_count(); ++vertex)
-            for (int k = 0; k < 3; ++k) all[row++] = at(plane + k, model_.node(vertex));
+            for (int k = 0; k < 3; ++k) all[row++] = at(plane + k, model_.shape.node(vertex));
         return all;
     }
 
@@ -37,7 +37,7 @@ public:
     {
         std::vector<Block> all;
         for (std::uint32_t vertex = 0; vertex < model_.node_count(); ++vertex) {
-            const Block f = six(plane_factor, model_.node(vertex));
+            const Block f = six(plane_factor, model_.shape.node(vertex));
             Block lower = Block::Identity(), pivots = Block::Zero();
             lower(1, 0) = f(0, 1), lower(2, 0) = f(0, 2), lower(2, 1) = f(1, 2);
             for (int k = 0; k < 3; ++k) pivots(k, k) = f(k, k) > 0 ? 1 / f(k, k) : 0;
@@ -52,7 +52,7 @@ public:
     {
         const auto n = static_cast<Eigen::Index>(3 * model_.node_count());
         Matrix a = Matrix::Zero(n, n);
-        if (model_.is_sheet())
+        if (model_.shape.is_sheet())
             add_sheet(a, coarse);
         else
             add_mesh(a);
@@ -93,7 +93,7 @@ private:
             number(5);
         return b;
     }
-    bool is_free(std::uint32_t node) const { return model_.inverse_mass(node) > 0; }
+    bool is_free(std::uint32_t node) const { return model_.masses.inverse(node) > 0; }
 
     /// B (x_i - x_j) at node i, and its negative at node j; where the other is pinned nothing is left of it.
     void add_coupling(Matrix& a, std::uint32_t i, std::uint32_t j, const Block& b) const
@@ -110,7 +110,7 @@ private:
         struct Forward {
             int row, column, plane;
         };
-        const bool bent = model_.bends_by_constraints();
+        const bool bent = model_.limits.bends_by_constraints();
         std::vector<Forward> forward{{0, 1, bent && coarse ? plane_fold : plane_block},
                                      {1, -1, plane_block + 6},
                                      {1, 0, bent && coarse ? plane_fold + 6 : plane_block + 12},
@@ -143,7 +143,7 @@ private:
             });
         };
         std::vector<std::uint32_t> vertex_of(model_.node_count());
-        for (std::uint32_t v = 0; v < model_.node_count(); ++v) vertex_of[model_.node(v)] = v;
+        for (std::uint32_t v = 0; v < model_.node_count(); ++v) vertex_of[model_.shape.node(v)] = v;
         const std::int32_t first = Hierarchy::offset(level_, 0, 0);
         for (std::uint32_t node = 0; node < model_.node_count(); ++node) {
             const std::uint32_t v = vertex_of[node];

@@ -233,7 +233,7 @@ TEST(Bending, EnergyIsThatOfTheCurvature)
         Scene scene;
         scene.add(cloth);
         ClothModel model(scene.cloth(0), scene);
-        for (Vec3& x : model.positions) {
+        for (Vec3& x : model.shape.positions) {
             const double along = kind == 1 ? x.z : x.x, a = along / radius;
             const double u = radius * std::sin(a), y = radius * (1 - std::cos(a));
             x = kind == 1 ? to_float({x.x, y, u}) : to_float({u, y, x.z});

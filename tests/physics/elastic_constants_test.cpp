@@ -21,7 +21,7 @@ double energy_of_strain(SheetBorder border, std::uint32_t n, double along, doubl
     Scene scene;
     scene.add(cloth);
     ClothModel model(scene.cloth(0), scene);
-    for (Vec3& x : model.positions) {
+    for (Vec3& x : model.shape.positions) {
         const Vec3d a = to_double(x);
         x = to_float({a.x * (1 + along) + shear / 2 * a.z, 0, a.z * (1 + across) + shear / 2 * a.x});
     }

@@ -65,7 +65,8 @@ TEST_P(Flight, MomentumIsKeptWithoutGravity)
     std::mt19937 engine(3);
     std::uniform_real_distribution<float> unit(-1, 1);
     Vec3d before;
-    for (Vec3& v : model.velocities) {  // every node its own way: the springs work hard against each other
+    for (Vec3& v :
+         model.shape.velocities) {  // every node its own way: the springs work hard against each other
         v = {0.3f + unit(engine), -0.2f + unit(engine), 0.1f + unit(engine)};
         before = before + to_double(v);
     }

@@ -16,7 +16,7 @@ namespace {
 /// gives it, with the speed of the wave's shape; the wave's amplitude passes 0 twice in a period.
 double frequency(ClothModel model, double stretch, int waves_across, int waves_along, double dt, int periods)
 {
-    const std::uint32_t rows = model.sheet->rows, columns = model.sheet->columns;
+    const std::uint32_t rows = model.shape.sheet->rows, columns = model.shape.sheet->columns;
     std::vector<double> shape(model.node_count());
     for (std::uint32_t r = 0; r < rows; ++r)
         for (std::uint32_t c = 0; c < columns; ++c) {
@@ -24,11 +24,12 @@ double frequency(ClothModel model, double stretch, int waves_across, int waves_a
             const double across =
                 waves_across > 0 ? std::sin(std::numbers::pi * waves_across * c / (columns - 1.0)) : 1;
             shape[node] = across * std::sin(std::numbers::pi * waves_along * r / (rows - 1.0));
-            const Vec3d x = to_double(model.positions[node]);
-            model.positions[node] = to_float({waves_across > 0 ? x.x * stretch : x.x, x.y, x.z * stretch});
+            const Vec3d x = to_double(model.shape.positions[node]);
+            model.shape.positions[node] =
+                to_float({waves_across > 0 ? x.x * stretch : x.x, x.y, x.z * stretch});
             // So small that the tension does not change: slopes of some 1e-4.
-            if (model.inverse_mass(node) > 0)
-                model.velocities[node] = {0, static_cast<float>(1e-3 * shape[node]), 0};
+            if (model.masses.inverse(node) > 0)
+                model.shape.velocities[node] = {0, static_cast<float>(1e-3 * shape[node]), 0};
         }
     const auto runner = make_reference_runner({&model, 1});
     Program programs[2] = {{1, {}, 0}, {2, {}, 1}};

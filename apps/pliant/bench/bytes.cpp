@@ -33,9 +33,9 @@ double bytes_per_node_and_step(const ClothModel& model, Backend backend)
     const double node = state + layout.inverse_mass;
     const double gathered = record > 0 ? record : state;
     const auto nodes = static_cast<double>(model.node_count());
-    const double springs = static_cast<double>(model.spring_count()) / nodes;
-    if (model.node_centric()) return node + state;
-    if (!model.gathers_rings())
+    const double springs = static_cast<double>(model.springs.count) / nodes;
+    if (model.plan.node_centric) return node + state;
+    if (!model.plan.gathers_rings())
         return gathered + springs * (2 * index + layout.spring + layout.spring_force)         // spring_force
                + springs * (2 * layout.entry + layout.spring_force) + node + state + record;  // list_step
 

@@ -63,7 +63,7 @@ CpuBody::CpuBody(const PlainCloth<float>& cloth)
     const auto entries_of = [&](std::span<const Neighbour> row) {
         std::vector<Entry> entries;
         for (const Neighbour& n : row)
-            entries.push_back({n.node, static_cast<float>(cloth.model.springs[n.spring].rest_length)});
+            entries.push_back({n.node, static_cast<float>(cloth.model.springs.list[n.spring].rest_length)});
         return entries;
     };
     ring_ = sliced(body.node_blocks, cloth.layout, true,

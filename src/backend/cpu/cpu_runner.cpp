@@ -35,7 +35,7 @@ struct CpuCloth {
           solver(model, model.hierarchy),
           mesh(model.hierarchy, solver),
           body(plain),
-          sheet(plain.layout, model.is_sheet() ? most_parts : 0)
+          sheet(plain.layout, model.shape.is_sheet() ? most_parts : 0)
     {
     }
     PlainCloth<float> plain;
@@ -99,7 +99,7 @@ struct Work {
         } else {
             plain.make_room_for(call->pass);
             size = plain.size_of(*call);
-            const bool of_mesh = call->pass == Pass::list_measure && !plain.model.is_sheet();
+            const bool of_mesh = call->pass == Pass::list_measure && !plain.model.shape.is_sheet();
             if (call->pass == Pass::sheet_measure || of_mesh) unit = Unit::measures;
             if (pass_unit == PassUnit::block || pass_unit == PassUnit::merged_block) weight = block_size;
         }
@@ -170,7 +170,7 @@ private:
         arguments.position = pointers(std::as_const(plain.position[call->parity]));
         arguments.velocity = pointers(std::as_const(plain.velocity[call->parity]));
         arguments.inverse_mass = plain.inverse_mass.data();
-        arguments.masses = plain.model.masses.data();
+        arguments.masses = plain.model.masses.kg.data();
         arguments.node_count = plain.model.node_count();
         arguments.constants = constants;
         arguments.colliders = colliders.data();
@@ -290,7 +290,7 @@ private:
                 calls = run_sheet_steps(program, k, input);
                 k += calls - 1;
             } else {
-                place_colliders(call, cloth.plain.model.origin, input);
+                place_colliders(call, cloth.plain.model.shape.origin, input);
                 Work work(call, cloth, kernels_, constants_[call.cloth], solver_constants_[call.cloth],
                           colliders_);
                 make_records(call, cloth);
@@ -339,7 +339,7 @@ private:
         for (std::size_t k = first; k < program.calls.size() && cloth.sheet.count() < most; ++k) {
             const Call& next = program.calls[k];
             if (next.pass != call.pass || next.cloth != call.cloth || next.guard != call.guard) break;
-            place_colliders(next, cloth.plain.model.origin, input);
+            place_colliders(next, cloth.plain.model.shape.origin, input);
             cloth.sheet.add(cloth.plain, next.parity, constants_[call.cloth], colliders_);
         }
         for (unsigned phase = 0; phase < 2; ++phase) {
@@ -388,7 +388,8 @@ private:
     {
         const std::size_t least = threads_are_asked_for_ ? 1 : 2048;
         const auto work = [](const CpuCloth& cloth) {
-            return std::max<std::size_t>(cloth.plain.model.node_count(), cloth.plain.model.springs.size());
+            return std::max<std::size_t>(cloth.plain.model.node_count(),
+                                         cloth.plain.model.springs.list.size());
         };
         return std::any_of(cloths_.begin(), cloths_.end(),
                            [&](const CpuCloth& cloth) { return work(cloth) >= least; });

@@ -7,7 +7,7 @@ namespace pliant::cpu {
 MeasuredSprings::MeasuredSprings(const PlainCloth<float>& cloth)
 {
     const ClothModel& model = cloth.model;
-    if (model.is_sheet()) return;
+    if (model.shape.is_sheet()) return;
     start_.push_back(0);
     std::vector<Neighbour> rows[Slices::lanes];
     for (std::size_t first = 0; first < model.node_count(); first += Slices::lanes) {
@@ -15,14 +15,14 @@ MeasuredSprings::MeasuredSprings(const PlainCloth<float>& cloth)
             const std::size_t node = first + lane;
             rows[lane].clear();
             if (node >= model.node_count()) continue;
-            for (const Neighbour& neighbour : model.neighbours.row(node))
+            for (const Neighbour& neighbour : model.springs.neighbours.row(node))
                 if (neighbour.node > node) rows[lane].push_back(neighbour);
         }
         append_slice(
             start_, [&](std::size_t lane) { return rows[lane].size(); },
             [&](std::size_t lane, std::size_t k, bool exists) {
                 const std::size_t node = exists ? rows[lane][k].node : first;
-                const Spring& spring = model.springs[exists ? rows[lane][k].spring : 0];
+                const Spring& spring = model.springs.list[exists ? rows[lane][k].spring : 0];
                 const auto of = static_cast<std::size_t>(spring.spring_class);
                 place_.push_back(static_cast<std::uint32_t>(cloth.layout.offset(node) * state_size));
                 rest_length_.push_back(exists ? static_cast<float>(spring.rest_length) : -1.0f);

@@ -12,12 +12,12 @@ SpringList::SpringList(PlainCloth<float>& cloth)
 {
     const ClothModel& model = cloth.model;
     const NodeLayout& layout = cloth.layout;
-    if (model.node_centric() || (model.body && !model.spring_list)) return;
+    if (!model.plan.lists_springs()) return;
     const auto place_of = [&](std::size_t node) {
         return static_cast<std::uint32_t>(layout.offset(node) * state_size);
     };
     bool bends = false;
-    for (const Spring& spring : model.springs) {
+    for (const Spring& spring : model.springs.list) {
         const auto k = static_cast<std::size_t>(spring.spring_class);
         first_.push_back(place_of(spring.i));
         second_.push_back(place_of(spring.j));
@@ -42,7 +42,8 @@ SpringList::SpringList(PlainCloth<float>& cloth)
             const std::size_t count = std::min(Slices::lanes, layout.columns - column);
             const std::size_t node = row * layout.columns + column;
             const auto row_of = [&](std::size_t lane) {
-                return lane < count ? model.neighbours.row(node + lane) : std::span<const Neighbour>();
+                return lane < count ? model.springs.neighbours.row(node + lane)
+                                    : std::span<const Neighbour>();
             };
             append_slice(
                 start_, [&](std::size_t lane) { return row_of(lane).size(); },

@@ -23,7 +23,7 @@ struct RingSums {
         const auto &positions = cloth.position[parity], &velocities = cloth.velocity[parity];
         const Vector3<T> x = positions.get(offset), v = velocities.get(offset);
         const auto add_spring = [&](const Neighbour& neighbour) {
-            const Spring& spring = model.springs[neighbour.spring];
+            const Spring& spring = model.springs.list[neighbour.spring];
             const auto k = static_cast<std::size_t>(spring.spring_class);
             const std::size_t other = cloth.layout.offset(neighbour.node);
             force = force + L::spring_force(x, positions.get(other), v, velocities.get(other),

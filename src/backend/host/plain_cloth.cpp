@@ -8,8 +8,9 @@ namespace pliant {
 template <class T>
 PlainCloth<T>::PlainCloth(const ClothModel& cloth)
     : model(cloth),
-      layout(cloth.sheet ? cloth.sheet->rows : 1, cloth.sheet ? cloth.sheet->columns : cloth.node_count()),
-      spring_force(cloth.springs.size()),
+      layout(cloth.shape.sheet ? cloth.shape.sheet->rows : 1,
+             cloth.shape.sheet ? cloth.shape.sheet->columns : cloth.node_count()),
+      spring_force(cloth.springs.list.size()),
       inverse_mass(layout.size),
       multiplier(cloth.hierarchy.empty() ? 0 : layout.size),
       tree(cloth.node_count()),
@@ -18,10 +19,10 @@ PlainCloth<T>::PlainCloth(const ClothModel& cloth)
     for (auto* planes : {&position[0], &position[1], &velocity[0], &velocity[1]})
         *planes = Planes<T>(layout.size);
     if (model.has_external_force()) external_force = Planes<T>(layout.size);
-    if (model.integrator == Integrator::runge_kutta_4)
+    if (model.plan.integrator == Integrator::runge_kutta_4)
         position_slope = velocity_slope = Planes<T>(layout.size);
     measures.assign(tree.value_count, L::measure_of_nothing());
-    write(model.positions, model.velocities);
+    write(model.shape.positions, model.shape.velocities);
     for (std::size_t i = 0; i < model.node_count(); ++i) take_mass(i);
 }
 
@@ -50,7 +51,7 @@ void PlainCloth<T>::make_room_for(Pass pass)
 template <class T>
 void PlainCloth<T>::take_mass(std::size_t node)
 {
-    inverse_mass[layout.offset(node)] = static_cast<T>(model.inverse_mass(node));
+    inverse_mass[layout.offset(node)] = static_cast<T>(model.masses.inverse(node));
 }
 
 template <class T>
@@ -59,8 +60,8 @@ std::size_t PlainCloth<T>::size_of(const Call& call) const
     if (is_body_pass(call.pass)) return body.size_of(call);
     switch (unit_of(call.pass)) {
         case PassUnit::single: return 1;
-        case PassUnit::attached_node: return model.attached.size();
-        case PassUnit::spring: return model.springs.size();
+        case PassUnit::attached_node: return model.attachments.nodes.size();
+        case PassUnit::spring: return model.springs.list.size();
         case PassUnit::block: return tree.levels.front().count;
         case PassUnit::merged_block: return tree.levels[call.index].count;
         default: return model.node_count();
@@ -184,10 +185,10 @@ void PlainCloth<T>::sheet_step(const Call& call, const StepConstants<T>& c,
 template <class T>
 void PlainCloth<T>::attach(const Call& call, const StepConstants<T>& c, std::size_t begin, std::size_t end)
 {
-    if (c.attached.size() < (call.index + 1) * model.attached.size()) return;
+    if (c.attached.size() < (call.index + 1) * model.attachments.nodes.size()) return;
     for (std::size_t k = begin; k < end; ++k) {
-        const std::size_t offset = layout.offset(model.attached[k].node);
-        const Vec3 place = c.attached[call.index * model.attached.size() + k];
+        const std::size_t offset = layout.offset(model.attachments.nodes[k].node);
+        const Vec3 place = c.attached[call.index * model.attachments.nodes.size() + k];
         const Vector next{static_cast<T>(place.x), static_cast<T>(place.y), static_cast<T>(place.z)};
         velocity[1 - call.parity].set(offset, (next - position[call.parity].get(offset)) * (T(1) / c.dt));
         position[1 - call.parity].set(offset, next);
@@ -211,7 +212,7 @@ void PlainCloth<T>::spring_forces(const Call& call, const StepConstants<T>& c, s
     const Planes<T>& x = position[call.parity];
     const Planes<T>& v = velocity[call.parity];
     for (std::size_t s = begin; s < end; ++s) {
-        const Spring& spring = model.springs[s];
+        const Spring& spring = model.springs.list[s];
         const std::size_t i = layout.offset(spring.i), j = layout.offset(spring.j);
         const auto k = static_cast<std::size_t>(spring.spring_class);
         const T scale = static_cast<T>(spring.scale);
@@ -228,7 +229,7 @@ void PlainCloth<T>::list_step(const Call& call, const StepConstants<T>& c,
 {
     for_each_node(begin, end, [&](const Place& place) {
         Vector force{T(0), T(0), T(0)};
-        for (const Neighbour& neighbour : model.neighbours.row(place.node)) {
+        for (const Neighbour& neighbour : model.springs.neighbours.row(place.node)) {
             const Vector f = spring_force.get(neighbour.spring);
             force = place.node < neighbour.node ? force + f : force - f;
         }
@@ -247,7 +248,7 @@ void PlainCloth<T>::stage_step(const Call& call, const StepConstants<T>& c,
     const Vector zero{T(0), T(0), T(0)};
     for_each_node(begin, end, [&](const Place& place) {
         Vector force = zero;
-        for (const Neighbour& neighbour : model.neighbours.row(place.node)) {
+        for (const Neighbour& neighbour : model.springs.neighbours.row(place.node)) {
             const Vector f = spring_force.get(neighbour.spring);
             force = place.node < neighbour.node ? force + f : force - f;
         }
@@ -297,10 +298,10 @@ void PlainCloth<T>::mesh_wind(const Call& call, const StepConstants<T>& c, std::
 {
     const Planes<T>& x = position[call.parity];
     const Planes<T>& v = velocity[call.parity];
-    const auto triangles = model.triangles();
+    const auto triangles = model.shape.triangles();
     for_each_node(begin, end, [&](const Place& place) {
         Vector force{T(0), T(0), T(0)};
-        for (const std::uint32_t t : model.node_triangles.row(place.node)) {
+        for (const std::uint32_t t : model.shape.node_triangles.row(place.node)) {
             const std::size_t i = layout.offset(triangles[t][0]), j = layout.offset(triangles[t][1]),
                               k = layout.offset(triangles[t][2]);
             force = force + L::wind_force(x.get(i), x.get(j), x.get(k), v.get(i), v.get(j), v.get(k), c.wind,
@@ -338,10 +339,10 @@ template <class T>
 void PlainCloth<T>::mesh_normals(const Call& call, std::size_t begin, std::size_t end)
 {
     const Planes<T>& x = position[call.parity];
-    const auto triangles = model.triangles();
+    const auto triangles = model.shape.triangles();
     for_each_node(begin, end, [&](const Place& place) {
         Vector sum{T(0), T(0), T(0)};
-        for (const std::uint32_t t : model.node_triangles.row(place.node))
+        for (const std::uint32_t t : model.shape.node_triangles.row(place.node))
             sum = sum + L::triangle_normal(x.get(layout.offset(triangles[t][0])),
                                            x.get(layout.offset(triangles[t][1])),
                                            x.get(layout.offset(triangles[t][2])));
@@ -371,8 +372,8 @@ void PlainCloth<T>::list_strains(const Call& call, std::size_t begin, std::size_
     const Planes<T>& x = position[call.parity];
     for_each_node(begin, end, [&](const Place& place) {
         T most = T(-1);
-        for (const Neighbour& neighbour : model.neighbours.row(place.node)) {
-            const Spring& spring = model.springs[neighbour.spring];
+        for (const Neighbour& neighbour : model.springs.neighbours.row(place.node)) {
+            const Spring& spring = model.springs.list[neighbour.spring];
             if (spring.spring_class == SpringClass::bend) continue;
             most = L::largest(L::spring_stretch(x.get(place.offset), x.get(layout.offset(neighbour.node)),
                                                 static_cast<T>(spring.rest_length)),
@@ -394,15 +395,15 @@ typename PlainCloth<T>::Measure PlainCloth<T>::measured_springs(const Call& call
                               c.stiffness[static_cast<std::size_t>(spring_class)] * scale,
                               spring_class != SpringClass::bend);
     };
-    if (model.node_centric()) {
+    if (model.plan.node_centric) {
         for_each_sheet_neighbour(place, std::size(sheet_neighbours) / 2,
                                  [&](const SheetNeighbour& neighbour, std::size_t other) {
                                      add(other, c.rest_lengths[neighbour.rest], neighbour.spring_class, T(1));
                                  });
     } else {
-        for (const Neighbour& neighbour : model.neighbours.row(place.node)) {
+        for (const Neighbour& neighbour : model.springs.neighbours.row(place.node)) {
             if (neighbour.node < place.node) continue;
-            const Spring& spring = model.springs[neighbour.spring];
+            const Spring& spring = model.springs.list[neighbour.spring];
             const std::size_t other = layout.offset(neighbour.node);
             add(other, static_cast<T>(spring.rest_length), spring.spring_class, static_cast<T>(spring.scale));
             m.elastic_energy = m.elastic_energy + L::bending_energy(x.get(place.offset), x.get(other),
@@ -424,7 +425,7 @@ void PlainCloth<T>::measure_blocks(const Call& call, const StepConstants<T>& c,
             const Vector x = position[call.parity].get(place.offset);
             Measure m = measured_springs(call, c, place);
             m = L::measure_node(m, x, velocity[call.parity].get(place.offset),
-                                static_cast<T>(model.masses[place.node]), c.gravity_direction);
+                                static_cast<T>(model.masses.kg[place.node]), c.gravity_direction);
             if (inverse_mass[place.offset] > T(0))
                 for (const Collider& collider : colliders)
                     m.max_penetration =
@@ -490,7 +491,7 @@ void PlainCloth<T>::read(Resource resource, std::uint32_t parity, std::vector<fl
         case Resource::next_velocity: return push_planes(velocity[1 - parity]);
         case Resource::external_force: return push_planes(external_force);
         case Resource::spring_force:
-            for (std::size_t s = 0; s < model.springs.size(); ++s) {
+            for (std::size_t s = 0; s < model.springs.list.size(); ++s) {
                 const Vector a = spring_force.get(s);
                 push(a.x, a.y, a.z);
             }

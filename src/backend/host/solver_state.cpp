@@ -9,7 +9,7 @@ namespace pliant {
 template <class T>
 SolverState<T>::SolverState(const ClothModel& model, const Hierarchy& hierarchy)
     : hierarchy_(&hierarchy),
-      corrects_steps_(model.corrects_steps()),
+      corrects_steps_(model.plan.corrects_steps()),
       arena_(hierarchy.number_count),
       scalars_(solver_scalar_count)
 {
@@ -31,7 +31,7 @@ void SolverState<T>::take_mass(const ClothModel& model, std::size_t node)
     if (hierarchy_->empty()) return;
     const SolverLevel& cloth = hierarchy_->levels.front();
     const NodeLayout layout(static_cast<std::size_t>(cloth.rows), static_cast<std::size_t>(cloth.columns));
-    mass_[layout.offset(node)] = static_cast<T>(model.masses[node]);
+    mass_[layout.offset(node)] = static_cast<T>(model.masses.kg[node]);
 }
 
 template <class T>

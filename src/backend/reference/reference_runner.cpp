@@ -36,12 +36,12 @@ public:
         Vec3d known_origin;
         for (const Call& call : program.calls) {
             auto& cloth = cloths_[call.cloth];
-            if (call.index != known_index || cloth.model.origin != known_origin) {
+            if (call.index != known_index || cloth.model.shape.origin != known_origin) {
                 colliders.clear();
                 for (const PlacedCollider& placed : input.colliders_at(call.index))
-                    colliders.push_back(make_collider<double>(seen_from(placed, cloth.model.origin)));
+                    colliders.push_back(make_collider<double>(seen_from(placed, cloth.model.shape.origin)));
                 known_index = call.index;
-                known_origin = cloth.model.origin;
+                known_origin = cloth.model.shape.origin;
             }
             const auto start = std::chrono::steady_clock::now();
             if (is_solver_pass(call.pass)) {

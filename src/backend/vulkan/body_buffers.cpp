@@ -38,11 +38,12 @@ BodyBuffers::BodyBuffers(const Device& device, const ClothModel& model)
         push(part.first_block, part.block_count, part.first_fan_block, part.fan_block_count,
              bits(part.inverse_weight), bits(part.inverse_fans));
     begin(3);
-    for (std::size_t i = 0; i < model.node_count(); ++i) push(model.neighbours.start[i], body.links[i]);
-    push(model.neighbours.start.back());
+    for (std::size_t i = 0; i < model.node_count(); ++i)
+        push(model.springs.neighbours.start[i], body.links[i]);
+    push(model.springs.neighbours.start.back());
     begin(4);
-    for (const Neighbour& n : model.neighbours.entries)
-        push(n.node, bits(model.springs[n.spring].rest_length));
+    for (const Neighbour& n : model.springs.neighbours.entries)
+        push(n.node, bits(model.springs.list[n.spring].rest_length));
     begin(5);
     for (const std::uint32_t start : body.fans.start) push(start);
     begin(6);

@@ -36,10 +36,10 @@ bool ClothBuffers::takes(PassLayout layout) const
     switch (layout) {
         case PassLayout::nodes: return true;
         case PassLayout::springs:
-        case PassLayout::list_steps: return !model_->node_centric();
-        case PassLayout::triangles: return !model_->is_sheet();
+        case PassLayout::list_steps: return !model_->plan.node_centric;
+        case PassLayout::triangles: return !model_->shape.is_sheet();
         case PassLayout::body_forces:
-        case PassLayout::body_volume: return model_->is_body();
+        case PassLayout::body_volume: return model_->plan.is_body();
         case PassLayout::solver:
         case PassLayout::solver_ends: return !model_->hierarchy.empty();
     }
@@ -73,19 +73,19 @@ void ClothBuffers::write(const Device& device, std::span<const Vec3> positions,
 {
     std::vector<Float4> values(positions.size());
     for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] = float4(positions[i], static_cast<float>(model_->inverse_mass(i)));
+        values[i] = float4(positions[i], static_cast<float>(model_->masses.inverse(i)));
     for (const Buffer& buffer : position_)
         device.write(buffer, values.data(), values.size() * sizeof(Float4));
     for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] = float4(velocities[i], static_cast<float>(model_->masses[i]));
+        values[i] = float4(velocities[i], static_cast<float>(model_->masses.kg[i]));
     for (const Buffer& buffer : velocity_)
         device.write(buffer, values.data(), values.size() * sizeof(Float4));
 }
 
 void ClothBuffers::take_mass(const Device& device, std::uint32_t node)
 {
-    const float mass = static_cast<float>(model_->masses[node]),
-                inverse = static_cast<float>(model_->inverse_mass(node));
+    const float mass = static_cast<float>(model_->masses.kg[node]),
+                inverse = static_cast<float>(model_->masses.inverse(node));
     const std::size_t at = node * sizeof(Float4) + offsetof(Float4, w);
     for (const Buffer& buffer : position_) device.write(buffer, &inverse, sizeof inverse, at);
     for (const Buffer& buffer : velocity_) device.write(buffer, &mass, sizeof mass, at);
@@ -159,10 +159,10 @@ ClothBuffers::ClothBuffers(const Device& device, const ClothModel& model,
         return filled(device, values.data(), nodes * sizeof(Float4), name);
     };
     for (std::size_t i = 0; i < nodes; ++i)
-        values[i] = float4(model.positions[i], static_cast<float>(model.inverse_mass(i)));
+        values[i] = float4(model.shape.positions[i], static_cast<float>(model.masses.inverse(i)));
     for (auto& buffer : position_) buffer = node_buffer("position");
     for (std::size_t i = 0; i < nodes; ++i)
-        values[i] = float4(model.velocities[i], static_cast<float>(model.masses[i]));
+        values[i] = float4(model.shape.velocities[i], static_cast<float>(model.masses.kg[i]));
     for (auto& buffer : velocity_) buffer = node_buffer("velocity");
 
     parameters_ = device.make_buffer(sizeof(Parameters), Usage::eUniformBuffer, Memory::upload, "parameters");
@@ -174,32 +174,33 @@ ClothBuffers::ClothBuffers(const Device& device, const ClothModel& model,
         external_force_ = node_buffer("external force");
     }
 
-    if (!model.node_centric()) {
+    if (!model.plan.node_centric) {
         std::vector<std::array<std::uint32_t, 2>> ends, around;
         std::vector<std::array<float, 4>> rest_class;
-        for (const Spring& spring : model.springs) {
+        for (const Spring& spring : model.springs.list) {
             ends.push_back({spring.i, spring.j});
             rest_class.push_back({static_cast<float>(spring.rest_length),
                                   static_cast<float>(spring.spring_class), static_cast<float>(spring.scale),
                                   static_cast<float>(spring.bending)});
         }
-        for (const Neighbour& neighbour : model.neighbours.entries)
+        for (const Neighbour& neighbour : model.springs.neighbours.entries)
             around.push_back({neighbour.node, neighbour.spring});
-        const auto& start = model.neighbours.start;
+        const auto& start = model.springs.neighbours.start;
         springs_ = filled(device, ends.data(), ends.size() * sizeof(ends[0]), "springs");
         spring_rest_class_ =
             filled(device, rest_class.data(), rest_class.size() * sizeof(rest_class[0]), "rest lengths");
         neighbour_start_ = filled(device, start.data(), start.size() * sizeof(start[0]), "neighbour rows");
         neighbours_ = filled(device, around.data(), around.size() * sizeof(around[0]), "neighbours");
-        if (model.integrator == Integrator::runge_kutta_4 || model.integrator == Integrator::explicit_euler)
+        if (model.plan.integrator == Integrator::runge_kutta_4 ||
+            model.plan.integrator == Integrator::explicit_euler)
             slopes_ = device.make_buffer(2 * nodes * sizeof(Float4), Usage::eStorageBuffer, Memory::device,
                                          "slopes");
         spring_force_ = device.make_buffer(ends.size() * sizeof(Float4), Usage::eStorageBuffer,
                                            Memory::device, "spring force");
     }
-    if (!model.is_sheet()) {
-        const auto triangles = model.triangles();
-        const auto &start = model.node_triangles.start, &around = model.node_triangles.entries;
+    if (!model.shape.is_sheet()) {
+        const auto triangles = model.shape.triangles();
+        const auto &start = model.shape.node_triangles.start, &around = model.shape.node_triangles.entries;
         triangles_ = filled(device, triangles.data(), triangles.size_bytes(), "triangles");
         triangle_start_ = filled(device, start.data(), start.size() * sizeof(start[0]), "triangle rows");
         node_triangles_ =
@@ -282,12 +283,12 @@ void ClothBuffers::set_parameters(double step_length, std::uint32_t collider_cou
     StepConstants<float> c(*model_, step_length);
     c.set(grab);
     Parameters p{};
-    if (model_->sheet) {
-        p.rows = model_->sheet->rows;
-        p.columns = model_->sheet->columns;
+    if (model_->shape.sheet) {
+        p.rows = model_->shape.sheet->rows;
+        p.columns = model_->shape.sheet->columns;
     }
     p.node_count = model_->node_count();
-    p.spring_count = static_cast<std::uint32_t>(model_->springs.size());
+    p.spring_count = static_cast<std::uint32_t>(model_->springs.list.size());
     p.collider_count = collider_count;
     p.colliders_rest = colliders_rest ? 1 : 0;
     p.has_air = model_->has_external_force() ? 1 : 0;
@@ -345,7 +346,7 @@ const Buffer& ClothBuffers::buffer(Resource resource, std::uint32_t parity) cons
 
 std::size_t ClothBuffers::entry_count(Resource resource) const
 {
-    if (resource == Resource::spring_force) return model_->springs.size();
+    if (resource == Resource::spring_force) return model_->springs.list.size();
     return resource == Resource::measures ? tree_.value_count : model_->node_count();
 }
 

@@ -67,9 +67,9 @@ public:
         steps_at_once_ = pipelines_->sheet_steps(options.gpu_substeps);
         pipelines_->make(*device_, dispatches_of(usual_calls(models), steps_at_once_));
         for (const ClothModel& model : models) {
-            const auto known = std::find(origins_.begin(), origins_.end(), model.origin);
+            const auto known = std::find(origins_.begin(), origins_.end(), model.shape.origin);
             origin_of_.push_back(static_cast<std::size_t>(known - origins_.begin()));
-            if (known == origins_.end()) origins_.push_back(model.origin);
+            if (known == origins_.end()) origins_.push_back(model.shape.origin);
         }
         cloths_.reserve(models.size());
         for (const ClothModel& model : models) cloths_.emplace_back(*device_, model, pipelines_->sets());
@@ -102,7 +102,7 @@ public:
             cloths_[c].set_parameters(input.step_length, input.collider_count, input.colliders_rest, at,
                                       input.grab_of(c));
             if (input.attached.empty()) continue;
-            const auto& nodes = cloths_[c].model().attached;
+            const auto& nodes = cloths_[c].model().attachments.nodes;
             for (std::size_t k = 0; k < input.attached[c].size(); ++k, ++first) {
                 const Vec3 place = input.attached[c][k];
                 const Float4 row{place.x, place.y, place.z, static_cast<float>(nodes[k % nodes.size()].node)};
@@ -260,19 +260,20 @@ private:
         const auto groups = [](std::uint64_t n, std::uint64_t size) { return (n + size - 1) / size; };
         if (dispatch.steps > 1) {
             const SheetTile& tile = pipelines_->tile(dispatch.steps);
-            return {groups(model.sheet->columns, tile.columns), groups(model.sheet->rows, tile.rows)};
+            return {groups(model.shape.sheet->columns, tile.columns),
+                    groups(model.shape.sheet->rows, tile.rows)};
         }
         switch (unit_of(call.pass)) {
             case PassUnit::single: return {1};
-            case PassUnit::attached_node: return {groups(model.attached.size(), linear_group)};
-            case PassUnit::spring: return {groups(model.springs.size(), linear_group)};
+            case PassUnit::attached_node: return {groups(model.attachments.nodes.size(), linear_group)};
+            case PassUnit::spring: return {groups(model.springs.list.size(), linear_group)};
             case PassUnit::block: return {cloth.tree().levels.front().count};
             case PassUnit::merged_block: return {cloth.tree().levels[call.index].count};
             default: break;
         }
         if (layout_of(call.pass) == PassLayout::nodes)  // of a sheet, then
-            return {groups(model.sheet->columns, sheet_group_columns),
-                    groups(model.sheet->rows, sheet_group_rows)};
+            return {groups(model.shape.sheet->columns, sheet_group_columns),
+                    groups(model.shape.sheet->rows, sheet_group_rows)};
         return {groups(model.node_count(), linear_group)};
     }
 
@@ -432,7 +433,7 @@ private:
             push.target_first = cloth.tree().levels[call.index].first;
         }
         if (call.pass == Pass::attach)
-            push.source_count = static_cast<std::uint32_t>(cloth.model().attached.size());
+            push.source_count = static_cast<std::uint32_t>(cloth.model().attachments.nodes.size());
         push.level = call.level;
         push.detail = call.detail;
         push.guard = static_cast<std::uint32_t>(call.guard);
