@@ -39,8 +39,7 @@ ClothShape::ClothShape(const Cloth& cloth)
 void ClothShape::build_sheet(const Cloth& cloth, const SheetOptions& options)
 {
     const double dx = options.width / (options.columns - 1), dz = options.height / (options.rows - 1);
-    sheet = SheetShape{
-        options.rows, options.columns, {dx, dz}, {dx, dz, std::sqrt(dx * dx + dz * dz), 2 * dx, 2 * dz}};
+    sheet = SheetShape{options.rows, options.columns, {dx, dz}};
     const Rotation rotation = rotation_from_degrees(cloth.rotation);
     positions.reserve(std::size_t{options.rows} * options.columns);
     for (std::uint32_t row = 0; row < options.rows; ++row)

@@ -27,7 +27,7 @@ inline constexpr SheetNeighbour sheet_neighbours[12] = {
 struct SheetShape {
     std::uint32_t rows = 0, columns = 0;
     std::array<double, 2> spacing{};  ///< m, of nodes along a row and along a column
-    /// m: along a row, along a column, diagonal, two along a row, two along a column
+    /// m: along a row, along a column, diagonal, two along a row, two along a column; SpringSet sets them
     std::array<double, 5> rest_lengths{};
 
     /// Structural and shear springs.

@@ -19,6 +19,7 @@ bool lies_before(const Spring& a, const Spring& b) { return a.i != b.i ? a.i < b
 
 SpringSet::SpringSet(const Cloth& cloth, const SteppingPlan& plan, ClothShape& shape)
 {
+    if (shape.is_sheet()) set_rest_lengths(*shape.sheet);
     if (!shape.is_sheet())
         list_mesh(shape);
     else if (!plan.node_centric)
@@ -85,6 +86,12 @@ void SpringSet::grade(const Cloth& cloth, ClothShape& shape)
     if (std::get<SheetOptions>(cloth.shape).border == SheetBorder::half) halve_border(list, *shape.sheet);
     add_bending(list, *shape.sheet, bending);
     shape.become_mesh();
+}
+
+void SpringSet::set_rest_lengths(SheetShape& sheet) const
+{
+    const auto [dx, dz] = sheet.spacing;
+    sheet.rest_lengths = {dx, dz, std::sqrt(dx * dx + dz * dz), 2 * dx, 2 * dz};
 }
 
 void SpringSet::list_sheet(const SheetShape& sheet)

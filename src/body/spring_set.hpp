@@ -35,6 +35,7 @@ struct SpringSet {
     std::uint32_t append(const SpringSet& other, std::uint32_t first_node);
 
 private:
+    void set_rest_lengths(SheetShape& sheet) const;
     void list_sheet(const SheetShape& sheet);
     void list_mesh(const ClothShape& shape);
     void grade(const Cloth& cloth, ClothShape& shape);
