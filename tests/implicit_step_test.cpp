@@ -103,6 +103,31 @@ TEST(ImplicitStep, WhatFliesWithoutForcesIsSolvedAtOnce)
         }
 }
 
+TEST(ImplicitStep, WhatRestsWithoutForcesIsSolvedAtOnce)
+{
+    // Rounding alone moves it, the more the farther away it is.
+    for (const bool mesh : {false, true})
+        for (const double away : {0.0, 3.0, 100.0})
+            for (const bool rods : {false, true}) {
+                Scene scene;
+                scene.method = Method::constraint;
+                scene.gravity = {};
+                if (rods) scene.newton_multigrid.resists = Resists::both;
+                Cloth cloth = mesh ? Cloth::mesh(test::irregular_mesh(13, 9), {.density = 0.3})
+                                   : test::flat_sheet(9, 13, 1.2, 0.8);
+                cloth.position = {away, 0.2, 0};
+                cloth.rotation = {20, 30, 40};
+                scene.add(cloth);
+                Simulation simulation(scene, test::on(Backend::cpu));
+                for (int k = 0; k < 60; ++k) simulation.advance(frame);
+                const SolverReport& solver = simulation.report().solver;
+                EXPECT_TRUE(solver.is_solved())
+                    << solver.residual_max << " mesh " << mesh << ", away " << away;
+                EXPECT_EQ(solver.frames_cut, 0u) << "mesh " << mesh << ", away " << away << ", rods " << rods;
+                EXPECT_LE(solver.newton_max, 8u);
+            }
+}
+
 Scene hanging_sheet(std::uint32_t n, double compliance = 1e-6)
 {
     Scene scene;

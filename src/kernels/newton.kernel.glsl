@@ -274,6 +274,15 @@ KERNEL vec3 risen(int o, vec3 q, vec3 aim, real step, real inverse_step)
     return aim;
 }
 
+// The least load of a step, J, at a node. What flies or rests without forces asks for nothing beyond where it goes anyway, and
+// no step can be solved to a part of nothing. So a load is at least that of a thousandth of the way, and what rounding does: a
+// position is known to 2^-24 of its size, and six springs of a node resist that.
+KERNEL real least_load(real mass, vec3 q, vec3 way)
+{
+    const float thousandth2 = 1e-6f, rounding2 = 3.5527136788005009e-15f;  // the second: 2^-48
+    return mass * dot3(way, way) * thousandth2 + dot3(q, q) * (softest_limit() * (6.0f * rounding2));
+}
+
 // The start of a step. Friction knows the normal force that the last step ended with; of a node that touches a collider
 // without having been found there by a step, what its depth makes of it.
 KERNEL void step_begin(int o)
@@ -308,7 +317,7 @@ KERNEL void step_begin(int o)
     store(plane_mass, o, mass);
     vec3 ahead = aim - start;
     sums[0] = sums[0] + mass * dot3(ahead, ahead);
-    sums[1] = sums[1] + mass * dot3(start, start);
+    sums[1] = sums[1] + least_load(mass, q, start);
 
     if (collider_count() == 0) return;  // nobody asks for friction
     Grip g = no_grip();

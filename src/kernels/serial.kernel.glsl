@@ -33,9 +33,7 @@ KERNEL void solve_begin()
     set_scalar(scalar_iterations, real(0.0f));
     set_scalar(scalar_residual_last, real(0.0f));
     if (idle) return;
-    // What flies without forces asks for nothing beyond where it goes anyway, and nothing could be solved to a part of that:
-    // so a load is at least a thousandth of the way.
-    real least = is_acad() ? real(0.0f) : total(sum_way) * real(1e-6f);
+    real least = is_acad() ? real(0.0f) : total(sum_least_load);
     set_scalar(scalar_load, largest(total(sum_load), least));
     accept_energies();
 }
