@@ -19,9 +19,10 @@ bool lies_before(const Spring& a, const Spring& b) { return a.i != b.i ? a.i < b
 
 SpringSet::SpringSet(const Cloth& cloth, const SteppingPlan& plan, ClothShape& shape)
 {
-    if (shape.is_sheet()) set_rest_lengths(*shape.sheet);
+    const RestScales scales{1, 1, 1};
+    if (shape.is_sheet()) set_rest_lengths(*shape.sheet, scales);
     if (!shape.is_sheet())
-        list_mesh(shape);
+        list_mesh(shape, scales);
     else if (!plan.node_centric)
         list_sheet(*shape.sheet);
     if (plan.graded) grade(cloth, shape);
@@ -34,7 +35,7 @@ SpringSet::SpringSet(const Cloth& cloth, const SteppingPlan& plan, ClothShape& s
     } else {
         count_list();
     }
-    measure(shape);
+    measure(shape, scales[0]);
 }
 
 SpringSet::SpringSet(std::vector<Spring> springs, Ragged<Neighbour> rows)
@@ -55,7 +56,7 @@ void SpringSet::count_list()
 }
 
 /// How long the cloth is, and how many springs lead from one end to the other.
-void SpringSet::measure(const ClothShape& shape)
+void SpringSet::measure(const ClothShape& shape, double structural_scale)
 {
     if (shape.is_sheet()) {
         const SheetShape& sheet = *shape.sheet;
@@ -66,7 +67,8 @@ void SpringSet::measure(const ClothShape& shape)
     double length = 0;
     std::size_t edges = 0;
     for (const Spring& spring : list)
-        if (spring.spring_class == SpringClass::structural) length += spring.rest_length, ++edges;
+        if (spring.spring_class == SpringClass::structural)
+            length += spring.rest_length / structural_scale, ++edges;
     const double side = shape.longest_side();
     if (!(length > 0) || !(side > 0)) return;
     length_across = side;
@@ -88,10 +90,12 @@ void SpringSet::grade(const Cloth& cloth, ClothShape& shape)
     shape.become_mesh();
 }
 
-void SpringSet::set_rest_lengths(SheetShape& sheet) const
+void SpringSet::set_rest_lengths(SheetShape& sheet, const RestScales& scales) const
 {
     const auto [dx, dz] = sheet.spacing;
-    sheet.rest_lengths = {dx, dz, std::sqrt(dx * dx + dz * dz), 2 * dx, 2 * dz};
+    const auto [structural, shear, bend] = scales;
+    sheet.rest_lengths = {dx * structural, dz * structural, std::sqrt(dx * dx + dz * dz) * shear,
+                          2 * dx * bend, 2 * dz * bend};
 }
 
 void SpringSet::list_sheet(const SheetShape& sheet)
@@ -103,7 +107,7 @@ void SpringSet::list_sheet(const SheetShape& sheet)
     });
 }
 
-void SpringSet::list_mesh(const ClothShape& shape)
+void SpringSet::list_mesh(const ClothShape& shape, const RestScales& scales)
 {
     using Pair = std::pair<std::uint32_t, std::uint32_t>;
     const auto ordered = [](std::uint32_t a, std::uint32_t b) { return a < b ? Pair{a, b} : Pair{b, a}; };
@@ -129,7 +133,8 @@ void SpringSet::list_mesh(const ClothShape& shape)
     const auto at = [&](std::uint32_t node) { return to_double(shape.positions[node]); };
     const auto add = [&](Pair pair, SpringClass spring_class) {
         const double length = distance(at(pair.first), at(pair.second));
-        if (length > 0) list.push_back({pair.first, pair.second, spring_class, length});
+        const double scale = scales[static_cast<std::size_t>(spring_class)];
+        if (length > 0) list.push_back({pair.first, pair.second, spring_class, length * scale});
     };
     for (const Pair& pair : edges) add(pair, SpringClass::structural);
     for (const Pair& pair : bends)

@@ -1,6 +1,7 @@
 // The springs of a cloth: those of a sheet follow from its grid, all others are listed.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -35,13 +36,14 @@ struct SpringSet {
     std::uint32_t append(const SpringSet& other, std::uint32_t first_node);
 
 private:
-    void set_rest_lengths(SheetShape& sheet) const;
+    using RestScales = std::array<double, spring_class_count>;  ///< by class
+    void set_rest_lengths(SheetShape& sheet, const RestScales& scales) const;
     void list_sheet(const SheetShape& sheet);
-    void list_mesh(const ClothShape& shape);
+    void list_mesh(const ClothShape& shape, const RestScales& scales);
     void grade(const Cloth& cloth, ClothShape& shape);
     void list_neighbours(std::size_t node_count);
     void count_list();
-    void measure(const ClothShape& shape);
+    void measure(const ClothShape& shape, double structural_scale);
 };
 
 }  // namespace pliant
