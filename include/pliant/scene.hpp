@@ -107,6 +107,9 @@ struct SpringParameters {
     SpringRole role = SpringRole::automatic;
     double limit = 0;          ///< of a constraint: stretch (l - l0) / l0 before it acts, 0 to 1; 0.01 is 1 %
     double compliance = 1e-6;  ///< m/N of a constraint beyond its limit, 1e-9 to 1
+    /// 0.1 to 10, multiplies the rest lengths that the shape at the start has: below 1 the cloth contracts,
+    /// as an elastic hem does, and above 1 it buckles.
+    double rest_scale = 1;
 };
 
 /// What resists bending.

@@ -19,7 +19,8 @@ bool lies_before(const Spring& a, const Spring& b) { return a.i != b.i ? a.i < b
 
 SpringSet::SpringSet(const Cloth& cloth, const SteppingPlan& plan, ClothShape& shape)
 {
-    const RestScales scales{1, 1, 1};
+    const Springs& given = cloth.springs;
+    const RestScales scales{given.structural.rest_scale, given.shear.rest_scale, given.bend.rest_scale};
     if (shape.is_sheet()) set_rest_lengths(*shape.sheet, scales);
     if (!shape.is_sheet())
         list_mesh(shape, scales);

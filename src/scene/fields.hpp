@@ -131,6 +131,7 @@ void fields(auto& at, Is<SpringParameters> auto& springs)
     at.choice("role", springs.role, role_names);
     at.number("limit", springs.limit, fraction, "");
     at.number("compliance", springs.compliance, compliance, "m/N");
+    at.number("rest_scale", springs.rest_scale, {0.1, 10}, "");
 }
 
 void fields(auto& at, Is<Springs> auto& springs)
