@@ -95,5 +95,5 @@ function(pliant_add_shaders target)
     add_dependencies(${target} ${target}_shaders)
     target_include_directories(${target} PRIVATE ${include_directory})
     # Embedded numbers are no sources of their own: rebuild what includes them when they change.
-    set_property(SOURCE ${PROJECT_SOURCE_DIR}/src/backend/vulkan/shader_code.cpp APPEND PROPERTY OBJECT_DEPENDS "${outputs}")
+    set_property(SOURCE ${PROJECT_SOURCE_DIR}/src/backend/vulkan/shader_code.cpp ${PROJECT_SOURCE_DIR}/src/render/pipelines.cpp APPEND PROPERTY OBJECT_DEPENDS "${outputs}")
 endfunction()

@@ -14,7 +14,7 @@ foreach(input IN LISTS INPUTS)
 endforeach()
 
 file(WRITE "${OUTPUT}" "// Generated from scenes/*.json by cmake/embed_scenes.cmake.
-#include \"scene/builtin_scenes.hpp\"
+#include \"scene_file/builtin_scenes.hpp\"
 
 namespace pliant {
 namespace {

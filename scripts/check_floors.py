@@ -18,7 +18,7 @@ SEARCHED = ["src", "include", "apps/pliant", "benchmarks", "src/laws", "src/back
 GENERATED = "shaders/"
 # Libraries, and the folders or files that alone may know them.
 CONFINED = {
-    "assimp/": ["src/mesh/assimp_reader.cpp"],
+    "assimp/": ["src/mesh_file/assimp_reader.cpp"],
     "GLFW/": ["apps/pliant/viewer"],
     "imgui": ["apps/pliant/viewer"],
     "CLI/": ["apps/pliant/main.cpp"],

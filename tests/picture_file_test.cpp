@@ -13,7 +13,7 @@
 #include <stb/stb_image.h>
 #include <sys/wait.h>
 
-#include "render/image_file.hpp"
+#include "pliant/render.hpp"
 #include "render/picture_recorder.hpp"
 #include "render/video_file.hpp"
 #include "test_errors.hpp"

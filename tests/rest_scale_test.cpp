@@ -34,7 +34,8 @@ const RestCase cases[] = {
 };
 
 class RestScale : public testing::TestWithParam<RestCase> {};
-INSTANTIATE_TEST_SUITE_P(Cloths, RestScale, testing::ValuesIn(cases), [](const auto& of) { return of.param.name; });
+INSTANTIATE_TEST_SUITE_P(Cloths, RestScale, testing::ValuesIn(cases),
+                         [](const auto& of) { return of.param.name; });
 
 double distance(Vec3 a, Vec3 b)
 {
@@ -73,7 +74,8 @@ void expect_to_shrink(Scene scene, const Cloth& cloth, double damping, double wi
 {
     scene.gravity = {};
     Cloth shrinking = cloth;
-    for (SpringParameters* of : {&shrinking.springs.structural, &shrinking.springs.shear, &shrinking.springs.bend})
+    for (SpringParameters* of :
+         {&shrinking.springs.structural, &shrinking.springs.shear, &shrinking.springs.bend})
         of->rest_scale = 0.8;
     shrinking.damping = damping;
     shrinking.position = {0.5, 0.2, 0};
@@ -88,8 +90,9 @@ void expect_to_shrink(Scene scene, const Cloth& cloth, double damping, double wi
     }
     const auto x = simulation.positions();
     const std::size_t last = x.size() - 1;
-    EXPECT_NEAR(distance(x[0], x[last]) / distance(start.cloths[0].positions[0], start.cloths[0].positions[last]), 0.8,
-                within);
+    EXPECT_NEAR(
+        distance(x[0], x[last]) / distance(start.cloths[0].positions[0], start.cloths[0].positions[last]),
+        0.8, within);
     EXPECT_NEAR(simulation.report().measures.max_stretch, 0, within);
 }
 

@@ -7,8 +7,8 @@
 #include <set>
 
 #include "pliant/scene.hpp"
-#include "scene/document.hpp"
 #include "scene/fields.hpp"
+#include "scene_file/document.hpp"
 #include "test_paths.hpp"
 
 namespace pliant {

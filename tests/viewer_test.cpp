@@ -15,7 +15,7 @@
 #include <unistd.h>
 
 #include "label.hpp"
-#include "render/image_file.hpp"
+#include "pliant/render.hpp"
 #include "test_errors.hpp"
 #include "test_paths.hpp"
 #include "viewer/script.hpp"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "render/image.hpp"
+#include "pliant/render.hpp"
 
 namespace pliant::tool {
 

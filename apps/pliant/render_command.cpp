@@ -7,9 +7,9 @@
 #include "backend/vulkan/device_state.hpp"
 #include "commands.hpp"
 #include "label.hpp"
-#include "picture_source.hpp"
 #include "progress.hpp"
 #include "render/picture_recorder.hpp"
+#include "render/picture_source.hpp"
 #include "render/renderer.hpp"
 
 namespace pliant::tool {

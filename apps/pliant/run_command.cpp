@@ -8,7 +8,7 @@
 #include "files/formatted.hpp"
 #include "files/numbered_name.hpp"
 #include "interruption.hpp"
-#include "painter.hpp"
+#include "pliant/render.hpp"
 #include "progress.hpp"
 #include "record/cache_file.hpp"
 #include "record/run_record.hpp"
@@ -43,7 +43,7 @@ public:
         }
         if (recorders_.empty() && !stills_) return;
         try {
-            painter_ = std::make_unique<Painter>(simulation_);
+            painter_ = std::make_unique<Painter>(simulation_, PainterOptions{cache_folder()});
         } catch (const Error& error) {
             recorders_.clear();
             stills_.reset();

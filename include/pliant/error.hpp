@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "pliant/api.hpp"
+
 namespace pliant {
 
 /// What went wrong; the value is the exit code of the command line tool.
@@ -16,7 +18,7 @@ enum class ErrorKind {
 
 /// Thrown while loading, validating and creating devices; never by `Simulation::advance`.
 /// The message is one sentence for a person: what is wrong, where, which value, and what to do.
-class Error : public std::runtime_error {
+class PLIANT_API Error : public std::runtime_error {
 public:
     Error(ErrorKind error_kind, const std::string& message) : std::runtime_error(message), kind(error_kind) {}
     ErrorKind kind;

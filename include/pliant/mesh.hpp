@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "pliant/api.hpp"
 #include "pliant/vec3.hpp"
 
 namespace pliant {
@@ -28,19 +29,20 @@ struct SurfaceMesh {
 /// these formats store them again for every triangle or seam. What a node of a glTF scene moves is moved.
 /// Throws Error(bad_input) naming file, line (or byte) and value when the file is not exactly what it claims
 /// to be.
-SurfaceMesh read_mesh(const std::filesystem::path& file);
+PLIANT_API SurfaceMesh read_mesh(const std::filesystem::path& file);
 
 /// Whether the name ends as read_mesh asks.
-bool is_mesh_file(const std::filesystem::path& file);
+PLIANT_API bool is_mesh_file(const std::filesystem::path& file);
 
 /// Reads a number of each vertex, a property of element 'vertex' of a `.ply` file, in the order of the
 /// vertices. Throws Error(bad_input) as read_mesh does, and when there is no property of that name.
-std::vector<float> read_vertex_attribute(const std::filesystem::path& file, const std::string& name);
+PLIANT_API std::vector<float> read_vertex_attribute(const std::filesystem::path& file,
+                                                    const std::string& name);
 
 /// Writes a mesh by the ending of its name: `.ply` (binary little-endian) or `.obj`.
 /// The file appears under its name only when it is complete. Throws Error(bad_input) when it cannot be
 /// written.
-void write_mesh(const std::filesystem::path& file, const SurfaceMesh& mesh);
+PLIANT_API void write_mesh(const std::filesystem::path& file, const SurfaceMesh& mesh);
 
 /// A connected chain of boundary edges: the rim of a hole, or the hem of a cloth.
 struct BoundaryLoop {
@@ -81,10 +83,10 @@ struct MeshReport {
 };
 
 /// Throws Error(bad_input) when an index has no vertex or a coordinate is not finite.
-MeshReport inspect_mesh(const SurfaceMesh& mesh);
+PLIANT_API MeshReport inspect_mesh(const SurfaceMesh& mesh);
 
 /// The report as lines for a person.
-std::string describe(const MeshReport& report);
+PLIANT_API std::string describe(const MeshReport& report);
 
 /// What repair_mesh may do.
 struct RepairOptions {
@@ -111,15 +113,15 @@ struct RepairReport {
 /// would open it is not done. Edges with three or more triangles, vertices with more than one fan and
 /// surfaces that cannot be oriented stay as they are. Throws Error(bad_input) as inspect_mesh does, or for a
 /// tolerance out of range.
-RepairReport repair_mesh(SurfaceMesh& mesh, const RepairOptions& options = {});
+PLIANT_API RepairReport repair_mesh(SurfaceMesh& mesh, const RepairOptions& options = {});
 
 /// The report as lines for a person; without any, nothing is to be done.
-std::string describe(const RepairReport& report);
+PLIANT_API std::string describe(const RepairReport& report);
 
 /// For a body with volume: throws Error(bad_input) unless the mesh is closed, manifold and consistently
 /// oriented, faces outward, encloses a volume, and has no unused vertex and no edge of length 0. The message
 /// says where it fails and which command mends it. `name`: of the file, or of the shape of a mesh made in
 /// code.
-void require_closed(const SurfaceMesh& mesh, const std::string& name);
+PLIANT_API void require_closed(const SurfaceMesh& mesh, const std::string& name);
 
 }  // namespace pliant

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "pliant/api.hpp"
 #include "pliant/mesh.hpp"
 
 namespace pliant {
@@ -17,7 +18,7 @@ struct UvSphereOptions {
     std::uint32_t rings = 32;     ///< 2 to 4096 bands from pole to pole
     std::uint32_t segments = 64;  ///< 3 to 8192 around the axis
 };
-SurfaceMesh uv_sphere_mesh(const UvSphereOptions& options = {});
+PLIANT_API SurfaceMesh uv_sphere_mesh(const UvSphereOptions& options = {});
 
 /// A sphere of nearly equal triangles: an icosahedron whose edges are divided, 10 f^2 + 2 vertices and 20 f^2
 /// triangles.
@@ -25,7 +26,7 @@ struct IcosphereOptions {
     double radius = 0.5;           ///< m
     std::uint32_t frequency = 16;  ///< f, 1 to 1024 parts of each edge of the icosahedron
 };
-SurfaceMesh icosphere_mesh(const IcosphereOptions& options = {});
+PLIANT_API SurfaceMesh icosphere_mesh(const IcosphereOptions& options = {});
 
 /// A ring around the y axis: major_segments x minor_segments vertices, twice as many triangles.
 struct TorusOptions {
@@ -34,7 +35,7 @@ struct TorusOptions {
     std::uint32_t major_segments = 64;  ///< 3 to 8192 around the y axis
     std::uint32_t minor_segments = 32;  ///< 3 to 8192 around the tube
 };
-SurfaceMesh torus_mesh(const TorusOptions& options = {});
+PLIANT_API SurfaceMesh torus_mesh(const TorusOptions& options = {});
 
 /// A box of n x n squares on each side, each cut in two: 6 n^2 + 2 vertices, 12 n^2 triangles. The cuts of
 /// neighbouring squares cross in turn, so that no diagonal is preferred. 8 faces make the cube of the volume
@@ -43,7 +44,7 @@ struct BoxOptions {
     Vec3d size = {1, 1, 1};   ///< m, along x, y, z
     std::uint32_t faces = 8;  ///< n, 1 to 1024 squares along each edge
 };
-SurfaceMesh box_mesh(const BoxOptions& options = {});
+PLIANT_API SurfaceMesh box_mesh(const BoxOptions& options = {});
 
 /// A cylinder around the y axis with half a sphere at either end: 2 + segments (2 cap_rings + bands - 1)
 /// vertices.
@@ -54,7 +55,7 @@ struct CapsuleOptions {
     std::uint32_t bands = 16;      ///< 1 to 4096 bands of the cylinder
     std::uint32_t segments = 48;   ///< 3 to 8192 around the axis
 };
-SurfaceMesh capsule_mesh(const CapsuleOptions& options = {});
+PLIANT_API SurfaceMesh capsule_mesh(const CapsuleOptions& options = {});
 
 /// A flat rectangle in the x-z plane that faces up (to positive y), with an edge all around: vertices row by
 /// row, row 0 at the side of negative z, column 0 at the side of negative x.
@@ -64,11 +65,11 @@ struct SheetMeshOptions {
     std::uint32_t rows = 32;     ///< vertices along z, 2 to 4096
     std::uint32_t columns = 32;  ///< vertices along x, 2 to 4096
 };
-SurfaceMesh sheet_mesh(const SheetMeshOptions& options = {});
+PLIANT_API SurfaceMesh sheet_mesh(const SheetMeshOptions& options = {});
 
 /// The same rectangle as an irregular mesh: vertices inside it are moved by up to a fifth of the distance to
 /// their neighbours, the same way in every run, and each square is cut along its shorter diagonal.
-SurfaceMesh irregular_sheet_mesh(const SheetMeshOptions& options = {});
+PLIANT_API SurfaceMesh irregular_sheet_mesh(const SheetMeshOptions& options = {});
 
 /// An open tube around the y axis that faces outward, of nearly equal triangles when length / (rows - 1) is
 /// 0.87 of 2 pi radius / segments: rows x segments vertices, row by row from the top, every other row turned
@@ -79,7 +80,7 @@ struct TubeOptions {
     std::uint32_t rows = 64;      ///< 2 to 4096 circles along the axis
     std::uint32_t segments = 55;  ///< 3 to 8192 around it
 };
-SurfaceMesh tube_mesh(const TubeOptions& options = {});
+PLIANT_API SurfaceMesh tube_mesh(const TubeOptions& options = {});
 
 /// A T-shirt: two panels in the shape of a T, body and short sleeves, sewn along shoulders, sleeves and
 /// sides; open at the neck (cut to a V in front), at both cuffs and at the hem. It stands upright (y), its
@@ -91,7 +92,7 @@ struct ShirtOptions {
     double width = 0.5;         ///< m, of the body
     std::uint32_t squares = 7;  ///< n, 1 to 200: squares along a tenth of the width
 };
-SurfaceMesh shirt_mesh(const ShirtOptions& options = {});
+PLIANT_API SurfaceMesh shirt_mesh(const ShirtOptions& options = {});
 
 /// A figure with body, head, ears, arms and legs, rounded where they join: one closed component without a
 /// handle, of nearly equal, well-shaped triangles. It stands upright (y) and looks to positive z.
@@ -99,6 +100,6 @@ struct BlobOptions {
     double height = 1;                ///< m, from the feet to the tips of the ears
     std::uint32_t vertices = 10'000;  ///< 1,000 to 500,000; the mesh has this many within 5 %
 };
-SurfaceMesh blob_mesh(const BlobOptions& options = {});
+PLIANT_API SurfaceMesh blob_mesh(const BlobOptions& options = {});
 
 }  // namespace pliant

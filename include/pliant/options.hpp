@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "pliant/api.hpp"
+
 namespace pliant {
 
 namespace vulkan {
@@ -22,7 +24,7 @@ enum class Backend {
 };
 
 /// Lends the simulation the threads of a host, a game engine's for one. Without it Pliant uses its own.
-class JobSystem {
+class PLIANT_API JobSystem {
 public:
     virtual ~JobSystem() = default;
     /// How many tasks can run at once, >= 1.
@@ -69,8 +71,8 @@ struct DeviceListing {
     std::string name, kind;  ///< kind: "discrete GPU", "integrated GPU", "software", "avx512", ...
     std::string details;     ///< limits, one line
 };
-std::vector<DeviceListing> list_devices();
+PLIANT_API std::vector<DeviceListing> list_devices();
 
-const char* name_of(Backend backend);
+PLIANT_API const char* name_of(Backend backend);
 
 }  // namespace pliant

@@ -16,6 +16,7 @@
 #include <variant>
 #include <vector>
 
+#include "pliant/api.hpp"
 #include "pliant/error.hpp"
 #include "pliant/mesh.hpp"
 #include "pliant/vec3.hpp"
@@ -140,7 +141,7 @@ struct MaterialProperties {
     double shear = 0;    ///< N/m, of the shear modulus
     double bending = 0;  ///< N m
 };
-const MaterialProperties& properties_of(Material material);
+PLIANT_API const MaterialProperties& properties_of(Material material);
 
 /// How spring forces are computed; both give the same bits.
 enum class Formulation {
@@ -238,7 +239,7 @@ struct BodyOptions {
 };
 
 /// One piece of cloth, or the skin of a soft body: its shape at rest, its material, what holds it.
-struct Cloth {
+struct PLIANT_API Cloth {
     static Cloth sheet(const SheetOptions& options);
     static Cloth mesh(SurfaceMesh mesh, const MeshOptions& options = {});
     static Cloth disc(const DiscOptions& options);
@@ -429,7 +430,7 @@ struct Check {
 };
 
 /// Names a cloth of a scene, and lets it be changed further. Valid as long as the scene lives.
-class ClothHandle {
+class PLIANT_API ClothHandle {
 public:
     ClothHandle& pin(const Attachment& attachment);
     Cloth* operator->() const { return cloth_; }
@@ -444,7 +445,7 @@ private:
 };
 
 /// Everything a simulation starts from.
-class Scene {
+class PLIANT_API Scene {
 public:
     ClothHandle add(Cloth cloth);
     void add(Collider collider);
@@ -481,17 +482,17 @@ private:
 
 /// Throws Error(bad_input) for the first value that is out of its range; the message names the field as a
 /// JSON path.
-void validate(const Scene& scene);
+PLIANT_API void validate(const Scene& scene);
 
 /// Reads a scene file, or a built-in scene by its name. `overrides` are "path=value" as in `--set
 /// time.duration=2`. Throws Error(bad_input) naming file, line or JSON path, value, unit and the nearest
 /// valid name.
-Scene read_scene(const std::string& file_or_name, const std::vector<std::string>& overrides = {});
+PLIANT_API Scene read_scene(const std::string& file_or_name, const std::vector<std::string>& overrides = {});
 
 /// As a scene file writes it.
-const char* name_of(Method method);
-const char* name_of(Integrator integrator);
-const char* name_of(Solver solver);
+PLIANT_API const char* name_of(Method method);
+PLIANT_API const char* name_of(Integrator integrator);
+PLIANT_API const char* name_of(Solver solver);
 
 /// A built-in scene: its name and what it shows.
 struct SceneListing {
@@ -499,6 +500,6 @@ struct SceneListing {
     std::filesystem::path file;
 };
 /// The built-in scenes, by name.
-std::vector<SceneListing> list_scenes();
+PLIANT_API std::vector<SceneListing> list_scenes();
 
 }  // namespace pliant

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "pliant/api.hpp"
 #include "pliant/options.hpp"
 #include "pliant/scene.hpp"
 #include "pliant/vec3.hpp"
@@ -48,7 +49,7 @@ struct VolumeReport {
 
 /// What the constraint solver did since the start, over all steps and cloths. A residual is a force relative
 /// to the load of its step.
-struct SolverReport {
+struct PLIANT_API SolverReport {
     std::uint64_t solves = 0;          ///< steps of a cloth that were solved
     double newton_mean = 0;            ///< Newton iterations per solve
     std::uint32_t newton_max = 0;      ///< in one step
@@ -147,7 +148,7 @@ struct PinListing {
 class DeviceState;  // Pliant's own renderer draws through it, see src/backend/vulkan
 
 /// Steps a scene through time. The scene is copied; changing it afterwards changes nothing here.
-class Simulation {
+class PLIANT_API Simulation {
 public:
     /// Throws Error(bad_input) for an invalid scene and Error(device_failure) when the backend is not to be
     /// had.

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "pliant/api.hpp"
 #include "pliant/scene.hpp"
 
 namespace pliant {
@@ -14,8 +15,8 @@ namespace pliant {
 using Rotation = std::array<Vec3d, 3>;
 
 /// R = Rz(degrees.z) Ry(degrees.y) Rx(degrees.x): about x, then y, then z.
-Rotation rotation_from_degrees(Vec3d degrees);
-Vec3d rotate(const Rotation& rotation, Vec3d vector);
+PLIANT_INSIDE Rotation rotation_from_degrees(Vec3d degrees);
+PLIANT_INSIDE Vec3d rotate(const Rotation& rotation, Vec3d vector);
 Rotation compose(const Rotation& outer, const Rotation& inner);
 
 /// A rigid motion against the collider's own place.
@@ -59,6 +60,6 @@ struct PlacedCollider {
         return shape == shape_number<Shape>;
     }
 };
-PlacedCollider placed_at(const Collider& collider, double time);
+PLIANT_INSIDE PlacedCollider placed_at(const Collider& collider, double time);
 
 }  // namespace pliant

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "pliant/api.hpp"
+
 namespace pliant {
 
 /// Writes to a temporary file beside the target; `commit` gives it the target's name in one step.
@@ -12,7 +14,7 @@ namespace pliant {
 ///     AtomicFile file(path);
 ///     file.stream() << "x,y\n";
 ///     file.commit();
-class AtomicFile {
+class PLIANT_INSIDE AtomicFile {
 public:
     /// Throws Error(bad_input) when the folder is missing or closed, or the target is no plain file.
     explicit AtomicFile(const std::filesystem::path& target);

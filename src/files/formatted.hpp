@@ -1,6 +1,7 @@
-// Text by a format of printf, for messages.
+// Numbers as text, for messages.
 #pragma once
 
+#include <charconv>
 #include <cstddef>
 #include <cstdio>
 #include <string>
@@ -14,6 +15,14 @@ std::string formatted(const char* format, Values... values)
     char text[1024];
     std::snprintf(text, sizeof text, format, values...);
     return text;
+}
+
+/// The shortest text that reads as the same number.
+template <class Number>
+std::string number_text(Number value)
+{
+    char text[32];
+    return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
 }  // namespace pliant

@@ -5,10 +5,12 @@
 #include <filesystem>
 #include <string>
 
+#include "pliant/api.hpp"
+
 namespace pliant {
 
 /// A name with one number in it, "seq_%04d.ply", filled in per frame.
-class NumberedName {
+class PLIANT_INSIDE NumberedName {
 public:
     /// Holds exactly one %d or %0Nd, with N from 1 to 9.
     static bool is_valid(const std::string& pattern);
@@ -22,6 +24,6 @@ private:
 };
 
 /// The ending of a name in lower case, with its point: ".png" of "A.PNG".
-std::string lower_case_ending(const std::filesystem::path& file);
+PLIANT_INSIDE std::string lower_case_ending(const std::filesystem::path& file);
 
 }  // namespace pliant

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <string>
 
+#include "files/formatted.hpp"
 #include "mesh/mesh_description.hpp"
 #include "mesh/mesh_topology.hpp"
-#include "mesh/text_scan.hpp"
 #include "pliant/error.hpp"
 #include "pliant/mesh.hpp"
 

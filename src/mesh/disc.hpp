@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "pliant/api.hpp"
 #include "pliant/mesh.hpp"
 
 namespace pliant {
@@ -12,6 +13,6 @@ constexpr std::uint64_t disc_node_count(std::uint32_t rings) { return 1 + 3ull *
 /// A disc in the x-z plane around the origin, facing up (to positive y): node 0 in the middle, and around it
 /// `rings` rings, of which the k-th has 6 k nodes. Nodes inside the hem are moved by up to a fifth of the
 /// distance between rings, the same way in every run.
-SurfaceMesh make_disc(double radius, std::uint32_t rings);
+PLIANT_INSIDE SurfaceMesh make_disc(double radius, std::uint32_t rings);
 
 }  // namespace pliant

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "mesh/text_scan.hpp"
+#include "files/formatted.hpp"
 #include "pliant/error.hpp"
 
 namespace pliant {

@@ -6,7 +6,6 @@
 #include <span>
 #include <tuple>
 
-#include "mesh/mesh_formats.hpp"
 #include "mesh/mesh_orientation.hpp"
 #include "mesh/mesh_topology.hpp"
 

@@ -3,12 +3,11 @@
 #include <string>
 #include <utility>
 
+#include "files/formatted.hpp"
 #include "mesh/hole_filling.hpp"
-#include "mesh/mesh_formats.hpp"
 #include "mesh/mesh_orientation.hpp"
 #include "mesh/mesh_topology.hpp"
 #include "mesh/mesh_welding.hpp"
-#include "mesh/text_scan.hpp"
 #include "pliant/error.hpp"
 
 namespace pliant {

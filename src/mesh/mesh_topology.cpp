@@ -4,6 +4,9 @@
 #include <limits>
 #include <tuple>
 
+#include "files/formatted.hpp"
+#include "pliant/error.hpp"
+
 namespace pliant {
 
 std::vector<EdgeUse> edge_uses(const SurfaceMesh& mesh)
@@ -83,6 +86,25 @@ bool is_flat(const SurfaceMesh& mesh, const Triangle& triangle)
         coordinate = std::max({coordinate, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     for (const Vec3d side : {b - a, c - b, a - c}) longest = std::max(longest, std::sqrt(dot(side, side)));
     return std::sqrt(dot(normal, normal)) <= longest * coordinate * std::numeric_limits<float>::epsilon();
+}
+
+void require_valid(const SurfaceMesh& mesh)
+{
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+        const Vec3 v = mesh.vertices[i];
+        for (const float value : {v.x, v.y, v.z})
+            if (!std::isfinite(value))
+                throw Error(ErrorKind::bad_input, "vertex " + std::to_string(i) +
+                                                      " of the mesh has the coordinate " +
+                                                      number_text(value) + "; coordinates must be finite");
+    }
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+        for (const std::uint32_t index : mesh.triangles[i])
+            if (index >= mesh.vertices.size())
+                throw Error(ErrorKind::bad_input, "triangle " + std::to_string(i) +
+                                                      " of the mesh uses vertex " + std::to_string(index) +
+                                                      ", but there are only " +
+                                                      std::to_string(mesh.vertices.size()) + " vertices");
 }
 
 }  // namespace pliant

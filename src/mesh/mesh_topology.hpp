@@ -7,9 +7,13 @@
 #include <span>
 #include <vector>
 
+#include "pliant/api.hpp"
 #include "pliant/mesh.hpp"
 
 namespace pliant {
+
+/// Throws Error(bad_input) unless every index has its vertex and every coordinate is finite.
+PLIANT_INSIDE void require_valid(const SurfaceMesh& mesh);
 
 /// Disjoint sets of 0 .. n-1, with path halving. The root of a set is its smallest member.
 class DisjointSets {

@@ -1,4 +1,4 @@
-#include "render/image_file.hpp"
+#include "pliant/render.hpp"
 
 #include <cstring>
 

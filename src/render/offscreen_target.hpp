@@ -1,7 +1,7 @@
 // A picture that no one sees: drawn to an image of the device and copied to the host.
 #pragma once
 
-#include "render/image.hpp"
+#include "pliant/render.hpp"
 #include "render/picture_pass.hpp"
 
 namespace pliant::vulkan {

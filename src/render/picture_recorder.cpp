@@ -4,7 +4,7 @@
 
 #include "files/atomic_file.hpp"
 #include "pliant/error.hpp"
-#include "render/image_file.hpp"
+#include "pliant/render.hpp"
 
 namespace pliant {
 

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "files/numbered_name.hpp"
-#include "render/image.hpp"
+#include "pliant/render.hpp"
 #include "render/video_file.hpp"
 
 namespace pliant {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <span>
 
-#include "render/image.hpp"
+#include "pliant/render.hpp"
 #include "render/offscreen_target.hpp"
 #include "render/scene_drawing.hpp"
 

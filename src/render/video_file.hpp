@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "render/image.hpp"
+#include "pliant/render.hpp"
 
 namespace pliant {
 

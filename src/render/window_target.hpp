@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "render/image.hpp"
+#include "pliant/render.hpp"
 #include "render/picture_pass.hpp"
 
 namespace pliant::vulkan {

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "pliant/api.hpp"
 #include "pliant/error.hpp"
 
 namespace pliant::scene_format {
@@ -14,7 +15,7 @@ using Names = std::span<const char* const>;
 
 /// Something wrong with one field. The message starts with the path, as in `cloths[0].sheet.rows is 1 nodes,
 /// but ...`.
-class FieldError : public Error {
+class PLIANT_INSIDE FieldError : public Error {
 public:
     FieldError(std::string field_path, const std::string& problem)
         : Error(ErrorKind::bad_input, (field_path.empty() ? "the scene" : field_path) + " " + problem),
@@ -24,8 +25,8 @@ public:
     std::string path;
 };
 
-std::string member_path(const std::string& path, std::string_view key);
-std::string element_path(const std::string& path, std::size_t index);
+PLIANT_INSIDE std::string member_path(const std::string& path, std::string_view key);
+PLIANT_INSIDE std::string element_path(const std::string& path, std::size_t index);
 
 /// The numbers that a field may hold.
 struct Range {
@@ -37,29 +38,29 @@ constexpr Range above(double min, double max) { return {min, max, true}; }
 enum class NumberKind { real, whole };
 
 /// "a number between 0 and 1e9 N/m"
-std::string expected_number(const Range& range, const char* unit, NumberKind kind);
+PLIANT_INSIDE std::string expected_number(const Range& range, const char* unit, NumberKind kind);
 /// Throws FieldError when the value is not in the range; not-a-number is in none.
-void require_number(const std::string& path, double value, const Range& range, const char* unit,
-                    NumberKind kind);
+PLIANT_INSIDE void require_number(const std::string& path, double value, const Range& range, const char* unit,
+                                  NumberKind kind);
 
 /// The shortest text that gives the number back, as a person writes it: 0.3, 100000, 1e6.
-std::string number_text(double value);
+PLIANT_INSIDE std::string number_text(double value);
 /// "5 N/m", and "5" without a unit.
-std::string with_unit(const std::string& value, const char* unit);
+PLIANT_INSIDE std::string with_unit(const std::string& value, const char* unit);
 /// In double quotes, on one line, and not too long for a message.
-std::string in_quotes(std::string_view text);
+PLIANT_INSIDE std::string in_quotes(std::string_view text);
 /// Like `in_quotes`, without the quotes.
-std::string printable(std::string_view text);
+PLIANT_INSIDE std::string printable(std::string_view text);
 /// "a, b, c"
-std::string joined(Names names);
+PLIANT_INSIDE std::string joined(Names names);
 
 /// The name most like `word`, or null when none is near enough to be what was meant.
 const char* nearest(std::string_view word, Names names);
 /// `; did you mean "stiffness"?`, or empty.
-std::string suggestion(std::string_view word, Names names);
+PLIANT_INSIDE std::string suggestion(std::string_view word, Names names);
 /// `is unknown` with a suggestion, or with the list of what is allowed.
-std::string unknown_name(std::string_view word, Names names);
+PLIANT_INSIDE std::string unknown_name(std::string_view word, Names names);
 /// `but must be one of a, b, c` with a suggestion.
-std::string expected_choice(std::string_view word, Names names);
+PLIANT_INSIDE std::string expected_choice(std::string_view word, Names names);
 
 }  // namespace pliant::scene_format

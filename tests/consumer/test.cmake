@@ -35,6 +35,7 @@ step("configure" ${CMAKE_COMMAND} -S ${SOURCE} -B ${work}/build -DCMAKE_PREFIX_P
      -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF)
 step("build" ${CMAKE_COMMAND} --build ${work}/build)
 step("run the consumer" ${work}/build/consumer)
+step("run what links the library alone" ${work}/build/alone)
 
 find_program(tool pliant PATHS ${prefix}/bin NO_DEFAULT_PATH)
 if(tool)

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "../painter.hpp"
 #include "pliant/error.hpp"
+#include "pliant/render.hpp"
 #include "record/run_record.hpp"
+#include "user_folders.hpp"
 
 namespace pliant::tool::reproduce {
 namespace {
@@ -222,7 +223,7 @@ Measurement measure_behaviour(const Experiment& experiment, const Scene& scene, 
         wanted.push_back(std::min(frames, static_cast<std::uint64_t>(std::llround(time / frame_length))));
     std::unique_ptr<Painter> painter;
     if (!wanted.empty() && no_pictures.empty()) try {
-            painter = std::make_unique<Painter>(simulation);
+            painter = std::make_unique<Painter>(simulation, PainterOptions{cache_folder()});
         } catch (const Error& error) {
             no_pictures = error.what();
         }

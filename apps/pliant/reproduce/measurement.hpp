@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "machine.hpp"
-#include "render/image.hpp"
+#include "pliant/render.hpp"
 
 namespace pliant::tool::reproduce {
 

@@ -9,9 +9,9 @@
 #include "comparison_table.hpp"
 #include "files/atomic_file.hpp"
 #include "other_load.hpp"
+#include "pliant/render.hpp"
 #include "pliant/version.hpp"
 #include "record/run_record.hpp"
-#include "render/image_file.hpp"
 
 namespace pliant::tool::reproduce {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "render/image.hpp"
+#include "pliant/render.hpp"
 #include "render/picture_pass.hpp"
 #include "viewer/event.hpp"
 

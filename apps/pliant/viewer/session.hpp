@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "picture_source.hpp"
 #include "pliant/simulation.hpp"
+#include "render/picture_source.hpp"
 #include "viewer/orbit_camera.hpp"
 #include "viewer/stepper.hpp"
 

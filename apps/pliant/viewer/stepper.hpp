@@ -6,8 +6,8 @@
 #include <mutex>
 #include <thread>
 
-#include "picture_source.hpp"
 #include "pliant/simulation.hpp"
+#include "render/picture_source.hpp"
 
 namespace pliant::tool {
 

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "backend/vulkan/device_state.hpp"
-#include "render/image_file.hpp"
+#include "pliant/render.hpp"
 #include "stopwatch.hpp"
 
 namespace pliant::tool {

@@ -19,6 +19,7 @@
 #include "backend/vulkan/memory_pool.hpp"
 #include "backend/vulkan/physical_devices.hpp"
 #include "backend/vulkan/pipeline_store.hpp"
+#include "pliant/api.hpp"
 
 namespace pliant::vulkan {
 
@@ -52,7 +53,7 @@ struct Buffer {
 class Device;
 
 /// Commands of one thread at a time, as Vulkan asks of a pool and its buffers, and a fence to wait for them.
-class CommandLane {
+class PLIANT_INSIDE CommandLane {
 public:
     CommandLane() = default;
     explicit CommandLane(const Device& device);
@@ -70,7 +71,7 @@ private:
 
 /// Threads may share it: what is submitted takes turns, and writing and reading wait for each other. Commands
 /// of `make_commands` and `run` belong to the thread that draws; others have a lane of their own.
-class Device {
+class PLIANT_INSIDE Device {
 public:
     /// Throws Error(device_failure) when there is no such device, naming what to install or choose.
     explicit Device(const DeviceOptions& options);
@@ -161,7 +162,7 @@ private:
 };
 
 /// Full barrier between everything before and everything after, for commands recorded by hand.
-void barrier(const vk::raii::CommandBuffer& commands, vk::PipelineStageFlags before, vk::AccessFlags written,
-             vk::PipelineStageFlags after, vk::AccessFlags read);
+PLIANT_INSIDE void barrier(const vk::raii::CommandBuffer& commands, vk::PipelineStageFlags before,
+                           vk::AccessFlags written, vk::PipelineStageFlags after, vk::AccessFlags read);
 
 }  // namespace pliant::vulkan

@@ -9,6 +9,7 @@
 
 #include "backend/vulkan/bindings.hpp"
 #include "backend/vulkan/shader_needs.hpp"
+#include "pliant/api.hpp"
 
 namespace pliant::vulkan {
 
@@ -20,8 +21,8 @@ LayoutNeeds needs_of(PassLayout layout);
 
 /// The first limit of `device` that a pipeline is beyond: the rest of a sentence after "it cannot run NAME:
 /// ". Empty when there is none.
-std::string beyond_limits(const vk::PhysicalDeviceLimits& device, const ShaderNeeds& shader,
-                          const LayoutNeeds& layout);
+PLIANT_INSIDE std::string beyond_limits(const vk::PhysicalDeviceLimits& device, const ShaderNeeds& shader,
+                                        const LayoutNeeds& layout);
 
 /// The same of all passes, beginning with which one; of them, those of several steps in a dispatch fit to
 /// what there is (sheet_tile.hpp).

@@ -12,6 +12,8 @@
 
 #include <vulkan/vulkan_raii.hpp>
 
+#include "pliant/api.hpp"
+
 namespace pliant::vulkan {
 
 /// Which parts of a block are free.
@@ -33,7 +35,7 @@ private:
 class MemoryPool;
 
 /// Of a block; goes back to its pool, which must live longer, when it is gone.
-class MemoryPiece {
+class PLIANT_INSIDE MemoryPiece {
 public:
     MemoryPiece() = default;
     MemoryPiece(MemoryPiece&& other) noexcept { swap(other); }
@@ -66,7 +68,7 @@ private:
 };
 
 /// Threads may share it.
-class MemoryPool {
+class PLIANT_INSIDE MemoryPool {
 public:
     /// `most` is what one allocation may have, in bytes.
     MemoryPool(const vk::raii::Device& device, const vk::PhysicalDeviceMemoryProperties& properties,

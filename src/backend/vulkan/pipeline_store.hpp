@@ -7,9 +7,11 @@
 
 #include <vulkan/vulkan_raii.hpp>
 
+#include "pliant/api.hpp"
+
 namespace pliant::vulkan {
 
-class PipelineStore {
+class PLIANT_INSIDE PipelineStore {
 public:
     /// Keeps nothing between runs.
     PipelineStore() = default;

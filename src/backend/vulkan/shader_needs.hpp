@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "pliant/api.hpp"
+
 namespace pliant::vulkan {
 
 struct ShaderNeeds {
@@ -21,6 +23,7 @@ struct ShaderNeeds {
 
 /// With the numbers that its constants 0, 1, ... are set to. What no function reaches that is called counts
 /// for nothing: includes declare more than a shader uses.
-ShaderNeeds needs_of(std::span<const std::uint32_t> code, std::span<const std::uint32_t> constants = {});
+PLIANT_INSIDE ShaderNeeds needs_of(std::span<const std::uint32_t> code,
+                                   std::span<const std::uint32_t> constants = {});
 
 }  // namespace pliant::vulkan

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <fstream>
 
-#include "scene/builtin_scenes.hpp"
-#include "scene/document.hpp"
-#include "scene/object_reader.hpp"
+#include "scene_file/builtin_scenes.hpp"
+#include "scene_file/document.hpp"
+#include "scene_file/object_reader.hpp"
 
 namespace pliant {
 namespace scene_format {

@@ -7,8 +7,9 @@
 
 #include "files/atomic_file.hpp"
 #include "files/numbered_name.hpp"
-#include "mesh/mesh_formats.hpp"
-#include "mesh/text_scan.hpp"
+#include "mesh/mesh_topology.hpp"
+#include "mesh_file/mesh_formats.hpp"
+#include "mesh_file/text_scan.hpp"
 #include "pliant/error.hpp"
 
 namespace pliant {
@@ -122,25 +123,6 @@ void write_mesh(const std::filesystem::path& file, const SurfaceMesh& mesh)
     AtomicFile target(file);
     format.write(target.stream(), mesh);
     target.commit();
-}
-
-void require_valid(const SurfaceMesh& mesh)
-{
-    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-        const Vec3 v = mesh.vertices[i];
-        for (const float value : {v.x, v.y, v.z})
-            if (!std::isfinite(value))
-                throw Error(ErrorKind::bad_input, "vertex " + std::to_string(i) +
-                                                      " of the mesh has the coordinate " +
-                                                      number_text(value) + "; coordinates must be finite");
-    }
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-        for (const std::uint32_t index : mesh.triangles[i])
-            if (index >= mesh.vertices.size())
-                throw Error(ErrorKind::bad_input, "triangle " + std::to_string(i) +
-                                                      " of the mesh uses vertex " + std::to_string(index) +
-                                                      ", but there are only " +
-                                                      std::to_string(mesh.vertices.size()) + " vertices");
 }
 
 void mesh_error(const MeshSource& source, const std::string& message)

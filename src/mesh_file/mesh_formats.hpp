@@ -1,4 +1,4 @@
-// What the mesh readers and writers share; private to src/mesh.
+// What the mesh readers and writers share; private to src/mesh_file.
 #pragma once
 
 #include <cstddef>
@@ -30,8 +30,5 @@ SurfaceMesh read_gltf(const MeshSource& source);
 
 void write_ply(std::ostream& out, const SurfaceMesh& mesh);
 void write_obj(std::ostream& out, const SurfaceMesh& mesh);
-
-/// Throws Error(bad_input) unless every index has its vertex and every coordinate is finite.
-void require_valid(const SurfaceMesh& mesh);
 
 }  // namespace pliant

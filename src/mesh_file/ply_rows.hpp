@@ -11,8 +11,8 @@
 #include <cstring>
 #include <limits>
 
-#include "mesh/ply_header.hpp"
-#include "mesh/text_scan.hpp"
+#include "mesh_file/ply_header.hpp"
+#include "mesh_file/text_scan.hpp"
 
 namespace pliant {
 

@@ -1,6 +1,6 @@
 // Ear clipping: O'Rourke, Computational Geometry in C, 2nd edition, section 1.6. Whether a corner is an ear
 // only changes when a neighbour is cut off, hence n^2 at worst.
-#include "mesh/polygon.hpp"
+#include "mesh_file/polygon.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include "pliant/simulation.hpp"
 #include "render/scene_drawing.hpp"
 
-namespace pliant::tool {
+namespace pliant {
 
 /// One for each cloth.
 std::vector<ClothTopology> topologies_of(const Simulation& simulation);
@@ -57,4 +57,4 @@ private:
 /// The cloths of a simulation as they are now: valid until its next step.
 std::vector<ClothFrame> frames_of(Simulation& simulation, const PictureSource& source);
 
-}  // namespace pliant::tool
+}  // namespace pliant

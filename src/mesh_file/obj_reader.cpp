@@ -4,9 +4,9 @@
 #include <array>
 #include <limits>
 
-#include "mesh/mesh_formats.hpp"
-#include "mesh/polygon.hpp"
-#include "mesh/text_scan.hpp"
+#include "mesh_file/mesh_formats.hpp"
+#include "mesh_file/polygon.hpp"
+#include "mesh_file/text_scan.hpp"
 
 namespace pliant {
 

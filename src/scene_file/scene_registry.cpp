@@ -1,7 +1,7 @@
 // The built-in scenes as `pliant list` shows them.
 #include "pliant/scene.hpp"
-#include "scene/builtin_scenes.hpp"
-#include "scene/document.hpp"
+#include "scene_file/builtin_scenes.hpp"
+#include "scene_file/document.hpp"
 
 namespace pliant {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/mesh_formats.hpp"
+#include "mesh_file/mesh_formats.hpp"
 
 namespace pliant {
 

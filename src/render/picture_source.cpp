@@ -1,4 +1,4 @@
-#include "picture_source.hpp"
+#include "render/picture_source.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "pliant/extremes.hpp"
 #include "solve/step_constants.hpp"
 
-namespace pliant::tool {
+namespace pliant {
 namespace {
 
 /// 1, 2 or 5 times a power of ten, not below a number.
@@ -162,4 +162,4 @@ void PictureSource::colour_volumes(const Simulation& simulation)
     set_text(scale_.high_text, "+%.3g %%", 100 * end);
 }
 
-}  // namespace pliant::tool
+}  // namespace pliant

@@ -1,9 +1,9 @@
-#include "mesh/ply_header.hpp"
+#include "mesh_file/ply_header.hpp"
 
 #include <array>
 #include <utility>
 
-#include "mesh/text_scan.hpp"
+#include "mesh_file/text_scan.hpp"
 
 namespace pliant {
 

@@ -1,8 +1,9 @@
 // Writers: PLY (binary little-endian) and OBJ. Both keep every float exactly.
 #include <bit>
 
-#include "mesh/mesh_formats.hpp"
-#include "mesh/text_scan.hpp"
+#include "files/formatted.hpp"
+#include "mesh_file/mesh_formats.hpp"
+#include "mesh_file/text_scan.hpp"
 
 namespace pliant {
 

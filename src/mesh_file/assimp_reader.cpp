@@ -14,11 +14,12 @@
 #include <assimp/scene.h>
 #include <assimp/Importer.hpp>
 
+#include "files/formatted.hpp"
 #include "files/numbered_name.hpp"
-#include "mesh/mesh_formats.hpp"
 #include "mesh/mesh_welding.hpp"
-#include "mesh/polygon.hpp"
-#include "mesh/text_scan.hpp"
+#include "mesh_file/mesh_formats.hpp"
+#include "mesh_file/polygon.hpp"
+#include "mesh_file/text_scan.hpp"
 
 namespace pliant {
 namespace {

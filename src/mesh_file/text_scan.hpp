@@ -49,10 +49,6 @@ std::optional<float> float_from(std::string_view word);
 /// Whether the word is a number of any kind, infinite and "nan" included.
 bool is_number(std::string_view word);
 
-/// The shortest text that reads back as the same number.
-std::string number_text(float value);
-std::string number_text(double value);
-
 /// The text for a message: shortened, without characters a terminal could trip over.
 std::string printable(std::string_view text);
 std::string in_quotes(std::string_view text);

@@ -1,4 +1,4 @@
-#include "mesh/text_scan.hpp"
+#include "mesh_file/text_scan.hpp"
 
 #include <algorithm>
 #include <array>
@@ -33,14 +33,6 @@ std::optional<Number> parsed(std::string_view word)
     Number value = 0;
     if (parse(word, value) != std::errc{}) return {};
     return value;
-}
-
-template <class Number>
-std::string shortest_text(Number value)
-{
-    std::array<char, 32> digits;
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-    return {digits.data(), end};
 }
 
 }  // namespace
@@ -87,9 +79,6 @@ bool is_number(std::string_view word)
     double value = 0;
     return parse(word, value) != std::errc::invalid_argument;
 }
-
-std::string number_text(float value) { return shortest_text(value); }
-std::string number_text(double value) { return shortest_text(value); }
 
 std::string printable(std::string_view text)
 {

@@ -3,11 +3,11 @@
 #include <array>
 #include <limits>
 
-#include "mesh/mesh_formats.hpp"
-#include "mesh/ply_header.hpp"
-#include "mesh/ply_rows.hpp"
-#include "mesh/polygon.hpp"
-#include "mesh/text_scan.hpp"
+#include "mesh_file/mesh_formats.hpp"
+#include "mesh_file/ply_header.hpp"
+#include "mesh_file/ply_rows.hpp"
+#include "mesh_file/polygon.hpp"
+#include "mesh_file/text_scan.hpp"
 
 namespace pliant {
 

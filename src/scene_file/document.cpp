@@ -1,4 +1,4 @@
-#include "scene/document.hpp"
+#include "scene_file/document.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "scene/document.hpp"
 #include "scene/fields.hpp"
+#include "scene_file/document.hpp"
 
 namespace pliant::scene_format {
 

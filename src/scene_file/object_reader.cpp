@@ -1,4 +1,4 @@
-#include "scene/object_reader.hpp"
+#include "scene_file/object_reader.hpp"
 
 #include <algorithm>
 
