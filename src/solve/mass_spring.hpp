@@ -1,4 +1,4 @@
-// The mass-spring method as sequences of passes; it knows no backend.
+// The mass-spring method as sequences of passes, independent of the backend.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +13,11 @@ namespace pliant {
 void append_mass_spring_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step,
                              std::uint32_t parity, std::vector<Call>& calls);
 
-/// Appends the motion of the nodes that moving pins hold, to where they are at the end of a step.
+/// Appends the motion of attached nodes to where their pins are at the end of a step.
 void append_attachments(const ClothModel& cloth, std::uint32_t index, std::uint32_t step,
                         std::uint32_t parity, std::vector<Call>& calls);
 
-/// Appends the wind's force on one cloth before a step, where there is air.
+/// Appends the wind's force on one cloth before a step, unless the density of air is 0.
 void append_wind(const ClothModel& cloth, std::uint32_t index, std::uint32_t step, std::uint32_t parity,
                  std::vector<Call>& calls);
 
@@ -25,7 +25,7 @@ void append_wind(const ClothModel& cloth, std::uint32_t index, std::uint32_t ste
 void append_measures(const ClothModel& cloth, std::uint32_t index, std::uint32_t parity, std::uint32_t step,
                      std::vector<Call>& calls);
 
-/// Appends what drawing one cloth needs beside its positions: normals and strains.
+/// Appends the drawing data of one cloth besides positions: normals and strains.
 void append_drawing(const ClothModel& cloth, std::uint32_t index, std::uint32_t parity,
                     std::vector<Call>& calls);
 
