@@ -1,5 +1,4 @@
-// The nodes of a mesh in another order: neighbours near each other in memory, whatever order a file has them
-// in.
+// Renumbers the nodes of a mesh so that neighbours are close in memory, whatever the order in its file.
 #include <algorithm>
 #include <utility>
 
@@ -8,7 +7,7 @@
 namespace pliant {
 namespace {
 
-/// Of a value of each node, in the order that `order` says.
+/// Permutes values of nodes into the order `order`.
 template <class Value>
 void reorder(std::vector<Value>& values, std::span<const std::uint32_t> order)
 {
@@ -45,8 +44,8 @@ void ClothModel::renumber(const std::vector<std::uint32_t>& order)
         for (std::uint32_t& node : triangle) node = node_of_vertex[node];
     reorder_rows(node_triangles, order);
 
-    // Springs lie by their first node, and are computed from the lower to the higher one: either way is the
-    // same force, bit for bit. What a node adds up stays in the order of the mesh's vertices.
+    // Springs are sorted by their first node and computed from the lower to the higher one; either direction
+    // gives the same bits. A node still adds its springs in the order of the mesh's vertices.
     std::vector<std::uint32_t> springs_in_order(springs.size());
     for (std::uint32_t s = 0; s < springs.size(); ++s) {
         Spring& spring = springs[s];

@@ -1,5 +1,4 @@
-// A soft body as a cloth model: its nodes in an order of their own, near an origin of their own, with rings
-// and fans.
+// A soft body as a cloth model, with its own order of nodes and its own origin, rings and fans.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,7 +9,7 @@
 namespace pliant {
 namespace {
 
-/// Appends the blocks of `count` things of one body from `first` on.
+/// Appends the blocks of `count` nodes or fans of one body, beginning at `first`.
 void append_blocks(std::vector<BodyBlock>& blocks, std::uint32_t first, std::uint32_t count,
                    std::uint32_t body)
 {
@@ -19,8 +18,8 @@ void append_blocks(std::vector<BodyBlock>& blocks, std::uint32_t first, std::uin
         blocks.push_back({first + k, std::min(size, count - k), body});
 }
 
-/// Where a body's own coordinates begin: near its middle, on a grid as wide as the body, so that the same
-/// body at places of that grid is stepped with the same bits.
+/// The origin of a body's coordinates: near its middle, on a grid as wide as the body, so that equal bodies
+/// at points of that grid are stepped with equal bits.
 Vec3d origin_of(Vec3d least, Vec3d most)
 {
     const double extent = std::max({most.x - least.x, most.y - least.y, most.z - least.z, 1e-30});
@@ -148,9 +147,9 @@ void ClothModel::list_body_springs(const BodyOptions& options, const Ragged<std:
     }
 }
 
-/// Forces and torques of regions, added up node by node: f = F / n + tau x (x - c) / sum r^2, with r the
-/// distance of a node from the axis of tau through the middle c. Together they have the torque that is asked
-/// for as long as the nodes turn about that axis.
+/// Forces and torques of regions, summed by node: f = F / n + tau x (x - c) / sum r^2, with r the distance of
+/// a node from the axis of tau through the centre c. Their torque is the given one as long as the nodes turn
+/// about that axis.
 void ClothModel::set_loads(const Cloth& cloth)
 {
     std::vector<LoadedNode> by_node(positions.size());
@@ -201,8 +200,8 @@ void ClothModel::set_loads(const Cloth& cloth)
 bool ClothModel::can_take(const ClothModel& other) const
 {
     if (!body || !other.body) return false;
-    // Further away than this, in widths of the body, single precision would see it less sharply than by its
-    // own origin.
+    // Beyond this distance, in widths of the body, single precision would resolve it worse than from its own
+    // origin.
     constexpr double far = 32;
     double width = 0;
     for (const Vec3& x : other.positions)
@@ -219,7 +218,7 @@ void ClothModel::take(const ClothModel& other)
     const auto node = static_cast<std::uint32_t>(positions.size()),
                spring = static_cast<std::uint32_t>(springs.size());
     const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
-    /// Rows behind ours, every entry moved.
+    /// Appends the rows of another body, with all entries shifted.
     const auto append_rows = [&](auto& to, const auto& from, auto moved) {
         const auto first = static_cast<std::uint32_t>(to.entries.size());
         for (std::size_t k = 1; k < from.start.size(); ++k) to.start.push_back(from.start[k] + first);
@@ -270,7 +269,7 @@ void ClothModel::take(const ClothModel& other)
         p.centre = p.centre + shift;
         ours.parts.push_back(std::move(p));
     }
-    // f = F + tau x (p - shift) of a position p against our origin
+    // f = F + tau x (p - shift) for a position p in our coordinates
     for (const LoadedNode& l : theirs.loads)
         ours.loads.push_back({l.node + node, l.force - cross(l.torque, shift), l.torque});
     spring_count_ += other.spring_count_;
