@@ -22,7 +22,7 @@ void append_constraint_step(const ClothModel& cloth, std::uint32_t index, std::u
 void append_acad_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step, std::uint32_t parity,
                       std::vector<Call>& calls);
 
-/// The first linear system of a step, for measurements. Three programs: assembly at the state copy `parity`;
+/// The first linear system of a step, for measurements. Three parts: assembly at the state copy `parity`;
 /// preparation of conjugate gradients, with the hierarchy if there is one; iterations.
 void append_linear_system(const ClothModel& cloth, std::uint32_t index, std::uint32_t parity,
                           std::vector<Call>& calls);
