@@ -13,7 +13,7 @@ extern const Kernels kernels_lanes8, kernels_lanes16;
 
 namespace {
 
-/// Those with the fast arithmetic of an instruction set; null where there are none.
+/// The kernels with fast arithmetic for the same instruction set; null if there are none.
 const Kernels* fast_kernels([[maybe_unused]] const Kernels& exact)
 {
 #if defined(__x86_64__)
