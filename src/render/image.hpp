@@ -1,4 +1,4 @@
-// A picture in the memory of the host.
+// A picture in host memory.
 #pragma once
 
 #include <cstdint>

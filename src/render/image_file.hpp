@@ -1,4 +1,4 @@
-// Pictures as files.
+// Image files.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 namespace pliant {
 
 /// The file appears under its name only when it is complete. Throws Error(bad_input), naming the file and the
-/// reason, when it cannot be written; a file that was there before is then untouched.
+/// reason, if it cannot be written; an existing file is then unchanged.
 void write_png(const std::filesystem::path& file, const Image& image);
 
 }  // namespace pliant
