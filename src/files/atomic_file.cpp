@@ -19,7 +19,7 @@ namespace {
     throw Error(ErrorKind::bad_input, "cannot write '" + file.string() + "': " + reason);
 }
 
-/// Short whatever the target is called, and different for every writer in the same folder.
+/// Short for any target, and unique for every writer in the same folder.
 std::string temporary_name()
 {
     std::random_device random;
@@ -36,7 +36,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& target) : asked_for_(target)
     std::error_code ignored;
     const auto status = std::filesystem::status(target, ignored);
     if (std::filesystem::is_directory(status)) fail(target, "it is a folder; give the name of a file");
-    // Renaming over a device or pipe would replace it.
+    // Renaming onto a device or pipe would replace it.
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
         fail(target, "it exists and is no plain file; give another name");
     if (std::filesystem::is_symlink(target, ignored))

@@ -1,4 +1,4 @@
-// Text by a format of printf, for messages.
+// printf-style formatting, for messages.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace pliant {
 
-/// What printf would print, as a string of at most 1,023 characters.
+/// The output of printf as a string of at most 1,023 characters.
 template <class... Values>
 std::string formatted(const char* format, Values... values)
 {
