@@ -31,7 +31,7 @@ public:
     explicit PointCache(const std::filesystem::path& file)
         : mesh_path_(std::filesystem::path(file).replace_extension(".obj")), file_(file)
     {
-        const AtomicFile probe(mesh_path_);  // trouble is better known before the run than in it
+        const AtomicFile probe(mesh_path_);  // reports an error before the run instead of during it
         refuse_foreign_mesh();
     }
 
@@ -61,7 +61,7 @@ public:
     }
 
 private:
-    /// The mesh beside the cache may only replace one that Pliant wrote, not the one somebody modelled.
+    /// Only a mesh that Pliant wrote may be replaced by the one beside the cache.
     void refuse_foreign_mesh() const
     {
         std::ifstream existing(mesh_path_);

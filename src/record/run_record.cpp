@@ -220,7 +220,7 @@ std::vector<std::string> failed_checks(const Scene& scene, const std::map<std::s
     std::vector<std::string> failures;
     for (const Check& check : scene.checks) {
         const auto found = values.find(check.value);
-        if (found == values.end()) continue;  // the reader allows only names of the summary
+        if (found == values.end()) continue;  // the reader accepts only names of the summary
         if (found->second >= check.min && found->second <= check.max) continue;
         char text[256];
         std::snprintf(text, sizeof text, "%s is %.6g, and the scene asks for %.6g to %.6g",
