@@ -49,21 +49,21 @@ struct SimulationOptions {
     /// Vulkan: consecutive steps of a sheet that run in one dispatch, 1 to 4, if nothing runs between them
     /// (no wind, no moving pin, one cloth). The bits are the same; the fastest number depends on the device.
     unsigned gpu_substeps = 1;
-    /// Vulkan: a folder in which compiled pipelines are kept between runs, made when it is missing; empty
-    /// keeps none. What is damaged there, or of another driver, is ignored.
+    /// Vulkan: a folder in which compiled pipelines are kept between runs, created if missing; empty: not
+    /// kept. Files that are damaged, or of another driver, are ignored.
     std::filesystem::path pipeline_folder = {};
-    /// Vulkan, for Pliant's own viewer: a device that is open already, instead of `device` and `validation`.
+    /// Vulkan, for Pliant's own viewer: uses this open device instead of `device` and `validation`.
     std::shared_ptr<vulkan::Device> shared_device = nullptr;
 };
 
-/// Milliseconds spent in one pass since the start, by the device's own clock.
+/// Milliseconds spent in one pass since the start, by the clock of the device.
 struct PassTime {
     std::string name;
     double milliseconds = 0;
     std::uint64_t calls = 0;
 };
 
-/// A place where passes can run, as `pliant info` lists it.
+/// A device on which passes can run, as `pliant info` lists it.
 struct DeviceListing {
     Backend backend = Backend::cpu;
     int index = 0;           ///< for SimulationOptions::device, Vulkan only

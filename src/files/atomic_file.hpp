@@ -9,7 +9,6 @@ namespace pliant {
 /// Writes to a temporary file beside the target; `commit` renames it to the target. Without a commit (an
 /// exception, an early return) the temporary file is removed and an existing target is unchanged.
 ///
-///
 ///     AtomicFile file(path);
 ///     file.stream() << "x,y\n";
 ///     file.commit();

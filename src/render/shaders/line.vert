@@ -19,7 +19,7 @@ const vec3 class_hues[4] = vec3[](vec3(0.85, 0.83, 0.75), vec3(0.10, 0.55, 0.75)
 vec4 seen_at(vec3 place)
 {
     vec4 at = frame.clip_from_world * vec4(place, 1.0);
-    at.z -= 1e-4 * at.w;  // towards the camera by a ten-thousandth, in front of the cloth
+    at.z -= 1e-4 * at.w;  // a little nearer, so that the cloth does not hide it
     return at;
 }
 
