@@ -1,4 +1,4 @@
-// read_mesh and write_mesh: the ending of the name decides on the format.
+// read_mesh and write_mesh: the file's extension chooses the format.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,7 +18,7 @@ namespace {
 struct MeshFormat {
     std::string_view ending;
     SurfaceMesh (*read)(const MeshSource&);
-    void (*write)(std::ostream&, const SurfaceMesh&);  ///< null: it is only read
+    void (*write)(std::ostream&, const SurfaceMesh&);  ///< null: the format is only read
 };
 constexpr std::array formats = {MeshFormat{".ply", read_ply, write_ply},
                                 MeshFormat{".obj", read_obj, write_obj},
@@ -36,7 +36,7 @@ constexpr std::array formats = {MeshFormat{".ply", read_ply, write_ply},
                 "cannot " + std::string(action) + " '" + file.string() + "': " + reason);
 }
 
-/// ".ply, .obj or .stl", those that are written or all.
+/// ".ply, .obj or .stl": all formats, or those that can be written.
 std::string endings(bool written)
 {
     std::vector<std::string> names;
@@ -65,7 +65,7 @@ std::string file_contents(const std::filesystem::path& file)
     if (!std::filesystem::exists(status)) fail("read", file, "there is no such file; check the path");
     if (std::filesystem::is_directory(status))
         fail("read", file, "it is a folder; give the name of a mesh file");
-    // A pipe could block for ever, a device never end.
+    // A pipe could block for ever, and a device never end.
     if (!std::filesystem::is_regular_file(status))
         fail("read", file, "it is no plain file; save the mesh to one");
 

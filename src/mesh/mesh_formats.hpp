@@ -1,4 +1,4 @@
-// What the mesh readers and writers share; private to src/mesh.
+// Shared by the mesh readers and writers; private to src/mesh.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace pliant {
 
-/// A file in memory, with the name that messages call it.
+/// A file in memory, with its name for messages.
 struct MeshSource {
     std::string name;
     std::string_view bytes;
@@ -31,7 +31,7 @@ SurfaceMesh read_gltf(const MeshSource& source);
 void write_ply(std::ostream& out, const SurfaceMesh& mesh);
 void write_obj(std::ostream& out, const SurfaceMesh& mesh);
 
-/// Throws Error(bad_input) unless every index has its vertex and every coordinate is finite.
+/// Throws Error(bad_input) unless all indices are in range and all coordinates finite.
 void require_valid(const SurfaceMesh& mesh);
 
 }  // namespace pliant
