@@ -37,7 +37,7 @@ double area(const std::vector<Vec3>& positions, const Triangle& t)
     return 0.5 * std::sqrt(dot(n, n));
 }
 
-/// Nodes that a pin names.
+/// The nodes that a pin selects.
 class PinnedNodes {
 public:
     PinnedNodes(const ClothModel& model) : model_(model) {}
@@ -86,7 +86,7 @@ private:
     const ClothModel& model_;
 };
 
-/// m: the longest side of what a mesh takes up at rest, and the mean of its structural springs.
+/// m: the longest side of a mesh's bounding box at rest, and the mean length of its structural springs.
 std::array<double, 2> sides_of(std::span<const Vec3> positions, std::span<const Spring> springs)
 {
     double length = 0, side = 0;
@@ -129,7 +129,8 @@ ClothModel::ClothModel(const Cloth& cloth, const Scene& scene)
     parameters.thickness = cloth.thickness;
     meets_colliders = !scene.colliders.empty();
 
-    const bool rows = uses_solver(method) && solver == Solver::paper;  // which number springs
+    const bool rows = uses_solver(method) && solver == Solver::paper;  // the paper's solver numbers springs
+                                                                       // by rows
     const bool stages = integrator == Integrator::explicit_euler || integrator == Integrator::runge_kutta_4;
     const auto* sheet_options = std::get_if<SheetOptions>(&cloth.shape);
     graded = !body && (cloth.springs.bend_model == BendModel::quadratic ||
@@ -165,10 +166,10 @@ ClothModel::ClothModel(const Cloth& cloth, const Scene& scene)
         for (std::size_t k = 0; acad_implicit && k < spring_class_count; ++k) {
             limited[k].below = parameters.stiffness[k];
             limited[k].limit =
-                acad.activate_at;  // a spring cannot be pulled to its rest length and be a spring, too
+                acad.activate_at;  // a spring that is pulled to its rest length cannot also act as a spring
         }
     }
-    // The paper's solver lists springs in the order of the mesh; a body has its own already.
+    // The paper's solver keeps springs in the order of the mesh; a body has been renumbered already.
     const bool keeps_order = body || (uses_solver(method) && solver == Solver::paper);
     if (const auto* mesh = std::get_if<SurfaceMesh>(&cloth.shape); mesh && !keeps_order)
         renumber(node_order(*mesh));
@@ -234,7 +235,7 @@ void ClothModel::set_masses(const Cloth& cloth)
                                                       "mass would be 0; remove it from the "
                                                       "mesh, or give node_mass instead of density");
     }
-    constexpr double least = 1e-18, most = 1e18;  // kg; beyond, float has no inverse worth the name
+    constexpr double least = 1e-18, most = 1e18;  // kg; beyond these a float has no accurate inverse
     for (std::size_t i = 0; i < count; ++i)
         if (!(mass[i] >= least && mass[i] <= most)) {
             char value[32];
@@ -262,7 +263,7 @@ void ClothModel::set_pins(const Cloth& cloth)
             velocities[node] = {};
         }
         if (cloth.pins[p].keyframes.empty()) continue;
-        Vec3d centre{};  // against the origin of the model, as positions are
+        Vec3d centre{};  // relative to the origin of the model, as positions are
         for (const std::uint32_t node : nodes)
             centre = centre + at(positions, node) * (1.0 / static_cast<double>(nodes.size()));
         for (const std::uint32_t node : nodes)
@@ -270,7 +271,7 @@ void ClothModel::set_pins(const Cloth& cloth)
                 {node, static_cast<std::uint32_t>(motions.size()), at(positions, node) - centre});
         motions.push_back({centre, cloth.pins[p].keyframes});
     }
-    // A node that several moving pins hold follows the last of them.
+    // If several moving pins hold a node, it follows the last of them.
     std::stable_sort(attached.begin(), attached.end(),
                      [](const AttachedNode& a, const AttachedNode& b) { return a.node < b.node; });
     const auto last_of_node =
@@ -315,16 +316,16 @@ double ClothModel::largest_limit() const
     return most;
 }
 
-// A pull runs through n springs in a row at sqrt(k / m) springs a second. By one update a step it has to be
-// through in about half of one, k = 4.6 m n^2 / dt^2; below a quarter of that the update itself is unstable
-// (docs/physics.md). What colliders hold up is pulled at from all sides, and wants four times as much. In
-// long steps it is to hold the cloth's weight at once, m g n over n springs of length L / n, at a stretch of
-// 0.2 %.
+// A pull passes through n springs in a row at sqrt(k / m) springs per second. With one update per step it
+// must pass in about half a step: k = 4.6 m n^2 / dt^2. Below a quarter of that the update itself is unstable
+// (docs/physics.md). Cloth held up by colliders is pulled from all sides, and needs four times as much. In
+// long steps the limit must bear the cloth's weight at once, m g n over n springs of length L / n, at a
+// strain of 0.2 %.
 double ClothModel::softest_limit(double step_length) const
 {
     const double line = mean_mass * springs_across * springs_across;
     const double weight = std::sqrt(dot(parameters.gravity, parameters.gravity)) / length_across;
-    // An update is stable from a quarter of 4.6 on; one of steps of second order from 6.5 on
+    // First-order updates are stable from a quarter of 4.6 on, second-order ones from 6.5 on
     // (docs/physics.md, "Constraints").
     const double firm = meets_colliders ? firm_limit : is_second_order() ? 13 : 4.6;
     return line * std::max(firm / (step_length * step_length), 500 * weight);
@@ -354,7 +355,7 @@ void ClothModel::set_springs(const Cloth& cloth, const Scene& scene)
                     : SpringRole::spring;
         const bool quadratic = !cloth.body && cloth.springs.bend_model == BendModel::quadratic;
         LimitedSprings& springs_of = limited[k];
-        springs_of.exists = quadratic;  // bending is a part of what all classes do
+        springs_of.exists = quadratic;  // all classes take part in bending
         if (role == SpringRole::off) continue;
         parameters.stiffness[k] = given.stiffness;
         parameters.spring_damping[k] = given.damping;
@@ -370,7 +371,7 @@ void ClothModel::set_springs(const Cloth& cloth, const Scene& scene)
             springs_of.below = given.limit > 0 ? given.stiffness : 0;
             springs_of.beyond = 1 / given.compliance;
             springs_of.compressed = newton.resists == Resists::both ? springs_of.beyond : 0;
-            // What exerts no force has no energy to report.
+            // A class without forces has no energy to report.
             if (solver == Solver::newton_multigrid) parameters.stiffness[k] = springs_of.below;
         } else {
             springs_of.below = given.stiffness;
@@ -378,7 +379,7 @@ void ClothModel::set_springs(const Cloth& cloth, const Scene& scene)
     }
 }
 
-/// Gives springs their own numbers. A sheet is a mesh from here on: its grid says nothing about them.
+/// Gives springs individual parameters. A sheet then becomes a mesh, since its grid has none.
 void ClothModel::grade_springs(const Cloth& cloth)
 {
     const bool quadratic = cloth.springs.bend_model == BendModel::quadratic;
@@ -401,7 +402,8 @@ void ClothModel::grade_springs(const Cloth& cloth)
 
 void ClothModel::list_sheet_springs()
 {
-    // Forward neighbours come in ascending order at any number of columns, so the list is sorted by (i, j).
+    // Forward neighbours are visited in ascending order for any number of columns, so the list is sorted by
+    // (i, j).
     springs.reserve(sheet_spring_count(sheet->rows, sheet->columns));
     for_each_sheet_spring(*sheet, [&](std::uint32_t i, std::uint32_t j, const SheetNeighbour& n) {
         springs.push_back({i, j, n.spring_class, sheet->rest_lengths[static_cast<std::size_t>(n.rest)]});
@@ -413,7 +415,7 @@ void ClothModel::list_mesh_springs()
     using Pair = std::pair<std::uint32_t, std::uint32_t>;
     const auto ordered = [](std::uint32_t a, std::uint32_t b) { return a < b ? Pair{a, b} : Pair{b, a}; };
 
-    // Edges with the vertices opposite to them; sorted, so that everything follows in a fixed order.
+    // Edges with their opposite vertices; sorted, so that all that follows has a fixed order.
     std::vector<std::pair<Pair, std::uint32_t>> sides;
     sides.reserve(triangles_.size() * 3);
     for (const Triangle& t : triangles_)
@@ -499,7 +501,7 @@ double ClothModel::shortest_rest_length() const
 
 double ClothModel::stable_step() const
 {
-    // Rows of M^-1 K and M^-1 C in 3 x 3 blocks have sums of norms of at most 2 sum k / m and 2 sum c / m.
+    // Row sums of norms of M^-1 K and M^-1 C, in 3 x 3 blocks, are at most 2 sum k / m and 2 sum c / m.
     std::vector<double> stiffness(positions.size(), 0.0), damping(positions.size(), 0.0);
     const auto add = [&](std::uint32_t i, std::uint32_t j, SpringClass spring_class, double scale,
                          double bending) {
@@ -526,7 +528,8 @@ double ClothModel::stable_step() const
         Integrator::explicit_euler)  // |1 + lambda dt| < 1 while dt < gamma / omega2, gamma >= d
         return omega2 > 0 ? parameters.damping / omega2 : std::numeric_limits<double>::infinity();
     if (integrator == Integrator::runge_kutta_4) {
-        // Its region has all of the left half of the disc of this radius; |lambda| <= max(omega, gamma).
+        // The stability region contains the left half of the disc of this radius; |lambda| <= max(omega,
+        // gamma).
         constexpr double radius = 2.6;
         const double fastest = std::max(std::sqrt(omega2), gamma);
         return fastest > 0 ? radius / fastest : std::numeric_limits<double>::infinity();

@@ -1,4 +1,4 @@
-// A cloth made ready for stepping: nodes, springs, triangles and what a node needs to find them.
+// A cloth prepared for stepping: nodes, springs, triangles and the connectivity between them.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace pliant {
 
 enum class SpringClass : std::uint32_t {
     structural = 0,
-    shear = 1,  ///< of a soft body: the springs across its inside
+    shear = 1,  ///< of a soft body: internal springs
     bend = 2
 };
 constexpr std::size_t spring_class_count = 3;
@@ -26,7 +26,8 @@ struct Spring {
     SpringClass spring_class = SpringClass::structural;
     double rest_length = 0;  ///< m
     double scale = 1;        ///< multiplies stiffness and damping of its class
-    /// N/m, may be negative: of the quadratic bending energy, bending / 2 (x_j - x_i)^2, see bending.hpp
+    /// N/m, may be negative: weight in the quadratic bending energy, bending / 2 (x_j - x_i)^2, see
+    /// bending.hpp
     double bending = 0;
 };
 
@@ -37,8 +38,8 @@ struct SheetNeighbour {
     int rest = 0;  ///< index into SheetShape::rest_lengths
 };
 
-/// The canonical order in which every backend adds a node's springs: by the neighbour's index, that is
-/// backward neighbours (the first six) in row order, then forward ones.
+/// The canonical order in which every backend adds a node's springs: by the neighbour's index, so the six
+/// backward neighbours come first, in row order, then the forward ones.
 inline constexpr SheetNeighbour sheet_neighbours[12] = {
     {-2, 0, SpringClass::bend, 4},      {-1, -1, SpringClass::shear, 2}, {-1, 0, SpringClass::structural, 1},
     {-1, 1, SpringClass::shear, 2},     {0, -2, SpringClass::bend, 3},   {0, -1, SpringClass::structural, 0},
@@ -52,7 +53,7 @@ struct SheetShape {
     std::array<double, 5> rest_lengths{};
 };
 
-/// Constant over a run, but for what Simulation changes per frame (the length of a step).
+/// Constant over a run, except for what Simulation changes per frame (the length of a step).
 struct ClothParameters {
     std::array<double, spring_class_count> stiffness{};       ///< N/m
     std::array<double, spring_class_count> spring_damping{};  ///< N s/m
@@ -65,7 +66,7 @@ struct ClothParameters {
     friend bool operator==(const ClothParameters&, const ClothParameters&) = default;
 };
 
-/// What the constraint methods know of a class of springs: as LimitCurve of laws/limit.law.glsl.
+/// A class of springs in the constraint methods: as LimitCurve of laws/limit.law.glsl.
 struct LimitedSprings {
     bool exists = false;
     double below = 0;  ///< N/m
@@ -81,21 +82,21 @@ struct LimitedSprings {
     }
 };
 
-/// A node that a moving pin holds.
+/// A node attached to a moving pin.
 struct AttachedNode {
     std::uint32_t node = 0;
     std::uint32_t motion = 0;  ///< index into ClothModel::motions
-    Vec3d arm;                 ///< m, from the centre of the nodes that the pin holds, at the start
+    Vec3d arm;                 ///< m, from the centre of the pin's nodes, at the start
 };
 struct AttachmentMotion {
     Vec3d centre;  ///< m
     std::vector<Keyframe> keyframes;
 };
 
-/// Methods that step by the constraint solver.
+/// Methods that use the constraint solver.
 constexpr bool uses_solver(Method method) { return method == Method::constraint || method == Method::acad; }
 
-/// The method whose passes a scene is stepped by: implicit Euler is that of constraints, without any.
+/// The method whose passes step a scene: implicit Euler uses those of `constraint`, without constraints.
 inline Method stepped_method(const Scene& scene)
 {
     return scene.integrator == Integrator::implicit_euler ? Method::constraint : scene.method;
@@ -106,29 +107,28 @@ public:
     ClothModel(const Cloth& cloth, const Scene& scene);
 
     std::uint32_t node_count() const { return static_cast<std::uint32_t>(masses.size()); }
-    /// Whether limits of a class remember their forces from step to step: a renewed_limit of
+    /// Whether limits of a class keep their forces from step to step: see renewed_limit in
     /// laws/limit.law.glsl.
     bool remembers(SpringClass of) const;
     bool remembers_any() const { return remembers(SpringClass::structural) || remembers(SpringClass::shear); }
-    /// Whether all springs whose stretch is measured are such limits, and softer in steps of so many seconds
-    /// than by their compliance; and the largest limit.
+    /// Whether all springs whose strain is measured are such limits, and softer than their compliance in
+    /// steps of `step_length` s; and the largest limit.
     bool does_not_stretch(double step_length) const;
     double largest_limit() const;
-    /// N/m: the softest stiffness by which such a limit is made right, in steps of so many seconds; and of
-    /// springs of a class, with their compliance.
+    /// N/m: the softest stiffness that corrects such a limit, in steps of `step_length` s; and for springs of
+    /// a class, with their compliance.
     double softest_limit(double step_length) const;
-    /// The softest limits, of m n^2 / dt^2, that pass a pull on through all n springs across the cloth in a
-    /// step, where colliders hold it up (docs/physics.md, "Constraints").
+    /// The softest limits, in m n^2 / dt^2, that pass a pull through all n springs across the cloth within
+    /// one step, if colliders hold it up (docs/physics.md, "Constraints").
     static constexpr double firm_limit = 18.4;
-    /// How many times as stiff those are on a mesh that hold a node to a pinned one: what hangs there hangs
-    /// by them alone, and a jerk stretches them by the change of force over their stiffness.
+    /// The factor on the stiffness of limits between a mesh's node and a pin. They alone bear what hangs
+    /// there, and a jerk stretches them by the change of force over their stiffness.
     static constexpr double held_limit = 4;
-    /// m: how far a polish takes a node at most where nothing but inertia resists (newton_polish). Of a mesh
-    /// a twenty-fifth of a spring, which stretches one by 0.08 %, and both its nodes by 0.3 %; sheets have no
-    /// bound.
+    /// m: maximum displacement by a polish where only inertia resists (newton_polish). On a mesh 1/25 of a
+    /// spring's length, which is a strain of 0.08 %, or 0.3 % if both its nodes move; unlimited on sheets.
     double polish_reach() const { return is_sheet() ? 1e9 : 0.04 * length_across / springs_across; }
-    /// The part of its stiffness that a slack limit which remembers keeps in Newton's matrix. On a mesh half
-    /// of them are slack, and hold up what should fall; a sheet takes more iterations with less than all.
+    /// The part of its stiffness that a slack limit with memory keeps in Newton's matrix. On a mesh half of
+    /// the limits are slack, and would hold up falling nodes; on a sheet less than 1 takes more iterations.
     double kept_when_slack() const { return is_sheet() ? 1 : 0.3; }
     double held_softest_limit(double step_length) const  ///< N/m, with the compliance
     {
@@ -140,44 +140,44 @@ public:
         const double softest = softest_limit(step_length);
         return softest / (1 + softest / limited[static_cast<std::size_t>(of)].beyond);
     }
-    /// 1/kg; 0 of a pinned node.
+    /// 1/kg; 0 for a pin.
     double inverse_mass(std::size_t node) const { return pinned[node] ? 0 : 1 / masses[node]; }
-    /// Lets go of the positions and velocities at the start, once a backend has them.
+    /// Frees the initial positions and velocities, once a backend has copied them.
     void forget_start()
     {
         std::vector<Vec3>().swap(positions);
         std::vector<Vec3>().swap(velocities);
     }
     std::uint64_t spring_count() const { return spring_count_; }
-    /// Structural and shear springs: those whose stretch is measured.
+    /// Structural and shear springs: those whose strain is measured.
     std::uint64_t measured_spring_count() const { return measured_spring_count_; }
     std::uint64_t triangle_count() const;
     bool is_sheet() const { return sheet.has_value(); }
     bool node_centric() const { return node_centric_; }
     bool feels_air() const { return parameters.air_density > 0; }
     bool is_body() const { return body.has_value(); }
-    /// ACAD where it can: a step is one of springs alone, and the solver makes good what it stretched too
-    /// far.
+    /// ACAD with explicit springs: each step is made with springs alone, and the solver corrects those that
+    /// are too long.
     bool corrects_steps() const { return method == Method::acad && !acad_implicit; }
-    /// Implicit steps go by the step before, too: BDF2 (docs/physics.md, "Constraints").
+    /// Implicit steps use the previous step, too: BDF2 (docs/physics.md, "Constraints").
     bool is_second_order() const
     {
         return newton.order == 2 && uses_solver(method) && solver == Solver::newton_multigrid &&
                !corrects_steps();
     }
-    /// s: an implicit step of a cloth that knows the step before is one of implicit Euler of this length.
+    /// s: with history, an implicit step equals one of implicit Euler of this length.
     double implicit_step(double step_length) const { return (is_second_order() ? 2.0 / 3 : 1) * step_length; }
-    /// A step adds external_force to its nodes: wind, or the loads of a body.
+    /// Whether a step adds external_force to its nodes: wind, or the loads of a body.
     bool has_external_force() const { return feels_air() || (body && !body->loads.empty()); }
-    /// Springs, and the ring of neighbours, are gathered in one pass, which needs no list of forces.
+    /// Whether one pass gathers springs and the ring of neighbours, without a list of forces.
     bool gathers_rings() const { return body && !spring_list; }
 
-    /// Whether another body can be stepped in the same passes: it is of the same material, and near.
+    /// Whether another body can be stepped in the same passes: it has the same material, and is near.
     bool can_take(const ClothModel& other) const;
-    /// Appends a body; it is then the last of `body->parts`.
+    /// Appends a body, as the last of `body->parts`.
     void take(const ClothModel& other);
 
-    /// Triangles; those of a sheet are made when first asked for.
+    /// Triangles; a sheet's are made on first use.
     std::span<const Triangle> triangles() const;
 
     double mass() const;  ///< kg
@@ -185,10 +185,11 @@ public:
     /// m; infinite without springs.
     double shortest_rest_length() const;
 
-    /// Largest safe step in s from Gershgorin's theorem: see docs/physics.md, "Stability".
+    /// The largest step in s that is certainly stable, by Gershgorin's theorem: see docs/physics.md,
+    /// "Stability".
     double stable_step() const;
 
-    /// Where the attached nodes are at a time, in their order; m.
+    /// Positions of the attached nodes at a time, in their order; m.
     void place_attached(double time, std::span<Vec3> places) const;
 
     std::vector<AttachedNode> attached;  ///< nodes of moving pins
@@ -199,8 +200,7 @@ public:
     std::vector<bool> pinned;      ///< by node
     std::optional<SheetShape> sheet;
     ClothParameters parameters;
-    /// ACAD whose step is longer than explicit springs can stand: they are stepped with their limits,
-    /// implicitly.
+    /// ACAD with a step too long for explicit springs: springs and limits are stepped together, implicitly.
     bool acad_implicit = false;
     Method method = Method::mass_spring;  ///< see stepped_method
     Integrator integrator = Integrator::symplectic_euler;
@@ -208,30 +208,31 @@ public:
     NewtonMultigridOptions newton;
     PaperOptions paper;
     AcadOptions acad;
-    std::array<LimitedSprings, spring_class_count> limited;  ///< by class, of the constraint methods
+    std::array<LimitedSprings, spring_class_count> limited;  ///< by class, for the constraint methods
     /// Whether bend springs are constraints: too stiff to be folded onto others in the operator.
     bool bends_by_constraints() const
     {
         const LimitedSprings& bend = limited[static_cast<std::size_t>(SpringClass::bend)];
         return method == Method::constraint && bend.exists && bend.beyond > 0;
     }
-    Hierarchy hierarchy;  ///< of the constraint methods
-    // Only when not node-centric:
+    Hierarchy hierarchy;  ///< for the constraint methods
+    // Only for lists of springs:
     std::vector<Spring> springs;  ///< sorted by (i, j)
-    /// Per node, sorted by the other one as the mesh numbers them; of a body see BodyModel::links
+    /// By node, sorted by the other node in the mesh's numbering; for a body see BodyModel::links.
     Ragged<Neighbour> neighbours;
-    /// Some have a scale, or bending, of their own. A sheet with such springs is stepped as a mesh.
+    /// Some springs have individual scales or bending weights. A sheet with such springs is stepped as a
+    /// mesh.
     bool graded = false;
-    bool meets_colliders = false;  ///< the scene has some
-    double springs_across = 1;     ///< how many structural springs lead in a row from one end to the other
+    bool meets_colliders = false;  ///< the scene has colliders
+    double springs_across = 1;     ///< number of structural springs in a row from one end to the other
     double length_across = 1;      ///< m: of the cloth at rest
     double mean_mass = 0;          ///< kg, of a node
-    /// At most what the largest eigenvalue of the solver's operator is against its own diagonal blocks: a
-    /// term that couples n nodes has none beyond n, and a spring couples two.
+    /// An upper bound of the eigenvalues of D^-1 A, with the diagonal blocks D of the solver's operator A: a
+    /// term that couples n nodes contributes at most n, and a spring couples two.
     double spectrum_end = 2.5;
-    bool spring_list = false;  ///< of a body: forces by the list of springs, with the method mass_spring
+    bool spring_list = false;  ///< of a body: forces by a list of springs, for the method mass_spring
     // Only for a mesh:
-    Ragged<std::uint32_t> node_triangles;  ///< per node the triangles around it, ascending
+    Ragged<std::uint32_t> node_triangles;  ///< by node, ascending
 
     // Only for soft bodies:
     std::optional<BodyModel> body;
@@ -245,8 +246,8 @@ public:
         return {neighbours.entries.data() + body->links[node],
                 neighbours.entries.data() + neighbours.start[node + 1]};
     }
-    Vec3d origin;  ///< m: positions are against it; 0 but for a body, which is stepped near its own origin
-    /// The node of each vertex of the mesh; empty where they are the same.
+    Vec3d origin;  ///< m: positions are relative to it; 0 except for a body, which has an origin near itself
+    /// The node of each vertex of the mesh; empty if the order is the same.
     std::vector<std::uint32_t> node_of_vertex;
     std::uint32_t node(std::uint32_t vertex) const
     {
@@ -268,7 +269,7 @@ private:
     void list_mesh_springs();
     void grade_springs(const Cloth& cloth);
     void list_neighbours();
-    /// At place k of `order` is the vertex that becomes node k.
+    /// order[k] is the vertex that becomes node k.
     void renumber(const std::vector<std::uint32_t>& order);
 
     bool node_centric_ = false;
