@@ -18,9 +18,8 @@ namespace pliant {
 struct FrameInput {
     double step_length = 0;  ///< s
     std::uint32_t collider_count = 0;
-    std::span<const PlacedCollider>
-        colliders;               ///< collider_count for each step, or once if `colliders_rest`
-    bool colliders_rest = true;  ///< the same at every step
+    std::span<const PlacedCollider> colliders;  ///< collider_count for each step, or once if `colliders_rest`
+    bool colliders_rest = true;                 ///< the same at every step
     /// By cloth: positions of its attached nodes, a row per step; empty if the program attaches nothing.
     std::span<const std::vector<Vec3>> attached = {};
     /// By cloth: targets of its bodies at the end of each step, or once if they do not change; see

@@ -42,9 +42,8 @@ inline constexpr std::size_t shape_number = []<class... Shapes>(std::type_identi
 struct PlacedCollider {
     std::size_t shape = 0;  ///< index in Collider; contact.law.glsl uses the same numbers
     Vec3d centre;           ///< m; of a plane: its point
-    Rotation axes{
-        Vec3d{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  ///< of a box; a plane's normal and a capsule's axis are
-                                                ///< axes[1]
+    Rotation axes{Vec3d{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  ///< of a box; a plane's normal and a capsule's axis
+                                                          ///< are axes[1]
     Vec3d half_size;    ///< m, of a box; of a capsule, y is half the distance between its ends
     double radius = 0;  ///< m; of sphere and capsule
     double friction = 0;

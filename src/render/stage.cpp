@@ -9,7 +9,7 @@ namespace {
 
 constexpr double radians_per_degree = std::numbers::pi / 180;
 constexpr double sun_height = 52, sun_side = 48;  // degrees above the floor, and to the left of the camera
-constexpr double cloth_reach = 1.6;  // how far a cloth moves from its start, in its own radii
+constexpr double cloth_reach = 1.6;               // how far a cloth moves from its start, in its own radii
 
 /// The bounding ball of a cloth at rest.
 Ball ball_around(const Cloth& cloth)

@@ -9,8 +9,8 @@
 //   object(key, thing)                    the same for an object that has `fields`
 //   list(key, things)                     an array of such objects
 //   one_of(variant, keys, with)           exactly one of the keys, which names the alternative
-//   and fields whose form in a file differs from the Scene: format_version, step_length, mesh_file, body_shape,
-//   material, cloths, bodies, checks
+//   and fields whose form in a file differs from the Scene: format_version, step_length, mesh_file,
+//   body_shape, material, cloths, bodies, checks
 #pragma once
 
 #include <array>

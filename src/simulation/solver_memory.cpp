@@ -61,8 +61,9 @@ void put_solver_memory(PassRunner& runner, const ClothModel& model, std::uint32_
 void fit_solver_memory(PassRunner& runner, const ClothModel& model, std::uint32_t index, double from,
                        double to)
 {
-    if (!(from > to) || !model.remembers_any()) return;  // a limit that is stiffer than necessary is still
-                                                         // valid
+    if (!(from > to) || !model.remembers_any())
+        return;  // a limit that is stiffer than necessary is still
+                 // valid
     const SolverLevel& cloth = model.hierarchy.levels.front();
     const ArenaRange limits = solver_memory_ranges(model).back();  // slips, followed by as many stiffnesses
     std::vector<float> numbers;

@@ -142,8 +142,7 @@ std::pair<std::uint64_t, double> Simulation::Implementation::steps_of(double dur
         const double step = 1 / (scene.time.frame_rate * scene.time.substeps);
         return divided(std::max(0.0, std::round(duration / step)), step);
     }
-    if (stepped_method(scene) ==
-        Method::constraint) {  // implicit: one step per frame by default
+    if (stepped_method(scene) == Method::constraint) {  // implicit: one step per frame by default
         const double frames = std::max(1.0, std::round(duration * scene.time.frame_rate));
         return divided(frames, duration / frames);
     }

@@ -12,9 +12,9 @@ namespace pliant {
 namespace {
 
 /// ACAD's limits are no stiffer than a step can solve: 1 / (1 / K + a) with the compliance a.
-///   Corrected steps: K = 300 m / dt^2. A node that approaches at one spring length per step is stopped within 6 % of it.
-///   Implicit, longer steps: K is that of ClothModel::firm_limit. A pull then passes through all springs
-///   across the cloth in one step.
+///   Corrected steps: K = 300 m / dt^2. A node that approaches at one spring length per step is stopped
+///   within 6 % of it. Implicit, longer steps: K is that of ClothModel::firm_limit. A pull then passes
+///   through all springs across the cloth in one step.
 /// For soft springs 1e6 N/m would be 10,000 m / dt^2 and more. The error of such a solve gains energy, and
 /// the cloth jitters.
 template <class T>

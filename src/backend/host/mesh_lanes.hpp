@@ -41,9 +41,8 @@ struct MeshLanes {
     /// Of edges, in the order source_edges; places are twice blocks of the finer level.
     LaneTable sources;
     const std::int32_t* source_edges = nullptr;
-    LaneTable
-        folds;  ///< of edges of the cloth's level: springs folded onto them; places are twice blocks of this
-                ///< level
+    LaneTable folds;  ///< of edges of the cloth's level: springs folded onto them; places are twice blocks of
+                      ///< this level
 };
 
 /// Passes of meshes that read neighbours from records, which must be made first.

@@ -24,10 +24,9 @@ std::vector<std::uint32_t> with_exact_arithmetic(std::span<const std::uint32_t> 
 
 /// Execution modes for 32-bit floats that a device supports (VK_KHR_shader_float_controls).
 struct FloatControls {
-    bool flush_denormals = false;  ///< DenormFlushToZero; without it, denormals are not flushed on every
-                                   ///< machine
-    bool round_to_nearest =
-        false;  ///< RoundingModeRTE; without it, Vulkan does not define the rounding mode
+    bool flush_denormals = false;   ///< DenormFlushToZero; without it, denormals are not flushed on every
+                                    ///< machine
+    bool round_to_nearest = false;  ///< RoundingModeRTE; without it, Vulkan does not define the rounding mode
 };
 
 /// The same module with these modes.
