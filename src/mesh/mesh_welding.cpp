@@ -23,8 +23,7 @@ struct CellHash {
     {
         std::uint64_t hash = 0;
         for (const double value : {cell.x, cell.y, cell.z}) {
-            hash =
-                (hash ^ std::bit_cast<std::uint64_t>(value + 0.0)) * 0x9E37'79B9'7F4A'7C15u;  // maps -0 to 0
+            hash = (hash ^ std::bit_cast<std::uint64_t>(value + 0.0)) * 0x9E37'79B9'7F4A'7C15u;  // -0 is 0
             hash ^= hash >> 32;
         }
         return hash;

@@ -76,8 +76,7 @@ std::vector<SurfaceEdge> edges_between_places(const ShapeMeshes& meshes, std::si
         const Triangle t{place_of(meshes.indices[i]), place_of(meshes.indices[i + 1]),
                          place_of(meshes.indices[i + 2])};
         if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0])
-            triangles.push_back(t);  // without degenerate
-                                     // triangles at the poles
+            triangles.push_back(t);  // not the degenerate ones at the poles
     }
     return edges_of(triangles);
 }

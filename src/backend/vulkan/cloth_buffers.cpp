@@ -239,9 +239,7 @@ ClothBuffers::ClothBuffers(const Device& device, const ClothModel& model,
             {Binding::slopes, &slopes_},
         };
         for (const auto& [binding, buffer] : bound)
-            if (buffer->size > 0)
-                bind(device, parity, binding, *buffer);  // otherwise this kind of cloth has
-                                                         // no such buffer
+            if (buffer->size > 0) bind(device, parity, binding, *buffer);  // else unused by this cloth
     }
 }
 
