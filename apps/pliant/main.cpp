@@ -1,4 +1,4 @@
-// The command line tool: what it understands, and how it ends.
+// The command line tool: its options and its exit codes.
 #include <cstdio>
 #include <exception>
 #include <map>
@@ -22,7 +22,7 @@ constexpr const char* exit_codes =
     "Exit codes: 0 good, 1 bad input, 2 bad usage, 3 the run diverged, 4 device failure, 130 ended by "
     "Ctrl-C.\n";
 
-/// What a simulation runs on, alike in every command that has one.
+/// The options of a simulation's device, the same in every command.
 void add_machine(CLI::App& app, SimulationOptions& options)
 {
     static const std::map<std::string, Backend> backends = {{"auto", Backend::automatic},
@@ -245,7 +245,7 @@ void add_reproduce(CLI::App& app, ReproduceOptions& options)
     reproduce->add_flag("--list", options.list, "Tell the names of the experiments, and do nothing");
 }
 
-/// Options that view and render have in common.
+/// Options that view and render share.
 void add_simulation(CLI::App& app, SimulationOptions& options, std::vector<std::string>& overrides)
 {
     add_machine(app, options);

@@ -11,11 +11,11 @@
 
 namespace pliant::tool {
 
-/// Draws what a simulation is at, as the scene's camera sees it; frames stay on the device when the
+/// Draws the present state of a simulation from the scene's camera; frames stay on the device if the
 /// simulation is there.
 class Painter {
 public:
-    /// Throws Error(device_failure) when no device here can draw.
+    /// Throws Error(device_failure) if no device can draw.
     explicit Painter(Simulation& simulation);
 
     /// Valid until the next call.

@@ -1,4 +1,4 @@
-// pliant render: pictures of a scene with overlays, and of two methods side by side.
+// `pliant render`: pictures of a scene with overlays, and of two methods side by side.
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -15,7 +15,7 @@
 namespace pliant::tool {
 namespace {
 
-/// Numbers with commas between them; throws Error(bad_usage).
+/// Parses numbers separated by commas; throws Error(bad_usage).
 std::vector<double> numbers_of(const std::string& text)
 {
     std::vector<double> numbers;
@@ -64,7 +64,7 @@ OverlaySet overlays_of(const RenderOptions& options, const Scene& scene)
     return overlays;
 }
 
-/// One simulation and what is drawn of it.
+/// One simulation and its pictures.
 class Film {
 public:
     Film(const Scene& scene, const RenderOptions& options, const std::shared_ptr<vulkan::Device>& device)
@@ -91,7 +91,7 @@ public:
                        image_);
         return image_;
     }
-    /// Throws Error when the run cannot go on.
+    /// Throws Error if the run cannot continue.
     void require_good() const
     {
         const Report& report = simulation_.report();
@@ -119,7 +119,7 @@ private:
     Image image_;
 };
 
-/// Pictures of one height beside each other.
+/// Joins two pictures of the same height.
 void put_side_by_side(const Image& left, const Image& right, Image& both)
 {
     both.width = left.width + right.width;
