@@ -84,8 +84,8 @@ public:
     /// Called before a simulation is destroyed: drawing from its buffers must be complete.
     std::function<void()> before_change;
 
-    /// The wanted scene. After a change, call `changed`; it takes effect with the next step, and positions
-    /// and velocities are kept. An invalid change is reported in `notice` and undone.
+    /// The wanted scene. After a change, call scene_changed(); it takes effect with the next step, and
+    /// positions and velocities are kept. An invalid change is reported in `notice` and undone.
     Scene& scene() { return scene_; }
     void scene_changed() { changed_ = true; }
     void apply_changes();
