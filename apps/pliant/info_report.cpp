@@ -199,12 +199,13 @@ int write_machine_report(const std::string& file)
     target.stream() << report.dump(2) << '\n';
     target.commit();
 
-    std::printf("wrote %s: %zu scenes on %zu places\n", file.c_str(), std::size(scenes), usable);
+    std::printf("wrote %s: %zu scenes on %zu devices and instruction sets\n", file.c_str(), std::size(scenes),
+                usable);
     if (differing.empty())
-        std::printf("every scene has one hash\n");
+        std::printf("every scene has the same hash everywhere\n");
     else
         for (const std::string& name : differing)
-            std::printf("the scene %s has different hashes on different places\n", name.c_str());
+            std::printf("the scene %s has different hashes on different devices\n", name.c_str());
     return 0;
 }
 

@@ -252,7 +252,7 @@ private:
             std::fprintf(stderr, "warning: %s\n", warning.c_str());
         const SolverReport& solver = simulation_.report().solver;
         if (solver.frames_cut > 0 && !options_.quiet)
-            std::printf("%llu frames were taken again in shorter steps: %llu steps more in all\n",
+            std::printf("%llu frames were repeated in shorter steps: %llu additional steps\n",
                         static_cast<unsigned long long>(solver.frames_cut),
                         static_cast<unsigned long long>(solver.steps_added));
     }

@@ -107,7 +107,7 @@ std::unique_ptr<Screen> make_screen(const ViewOptions& options)
 int view_command(const ViewOptions& options)
 {
     if (options.headless && !options.frames)
-        throw Error(ErrorKind::bad_usage, "--headless needs --frames: without a window, no one could end it");
+        throw Error(ErrorKind::bad_usage, "--headless needs --frames: without a window nothing would end it");
     std::vector<TimedEvent> script;
     if (!options.script_file.empty()) script = read_script(options.script_file);
     SessionLog log(options.log_file);

@@ -231,7 +231,7 @@ void ClothModel::set_masses(const Cloth& cloth)
             if (!(mass[i] > 0))
                 throw Error(ErrorKind::bad_input, "the mesh of cloth '" + cloth.name + "': vertex " +
                                                       std::to_string(i) +
-                                                      " belongs to no triangle with an area, so that its "
+                                                      " belongs to no triangle with an area, so its "
                                                       "mass would be 0; remove it from the "
                                                       "mesh, or give node_mass instead of density");
     }

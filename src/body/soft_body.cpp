@@ -101,7 +101,7 @@ void ClothModel::finish_body(const Cloth& cloth)
         if (!(sum > 0) && body->constrained)
             throw Error(ErrorKind::bad_input,
                         "body '" + cloth.name +
-                            "': no free vertex has a weight above 0, so that nothing could keep its "
+                            "': no free vertex has a weight above 0, so nothing can keep its "
                             "volume; move or widen volume.focus, or give other weights");
         part.inverse_weight = sum > 0 ? 1 / sum : 0;
     }

@@ -142,7 +142,7 @@ Expected triangles_of_off(const MeshSource& source)
     for (std::uint64_t& count : counts) {
         const std::string_view word = words.next();
         const auto value = count_from(word);
-        if (!value) fail(in_quotes(word) + " stands where a count of vertices, faces or edges must");
+        if (!value) fail(in_quotes(word) + " is not a count of vertices, faces or edges");
         count = *value;
     }
     const auto [vertices, faces, edges] = counts;

@@ -34,11 +34,11 @@ std::string remedy(const SurfaceMesh& mesh, const MeshReport& report, const std:
         repair_mesh(mended, options);
         if (!is_good(inspect_mesh(mended))) continue;
         const std::string file = mesh.file.empty() ? name : mesh.file.string();
-        return "mend it by 'pliant check " + file + " --repair" +
+        return "repair it with 'pliant check " + file + " --repair" +
                (options.weld_tolerance > 0 ? " --weld " + number_text(tolerance) : "") +
                (options.fill_holes ? " --fill-holes" : "") + " --out FIXED.ply'";
     }
-    return "'pliant check --repair' does not mend this, so do it in a modeller";
+    return "'pliant check --repair' cannot fix this; repair it in a modelling program";
 }
 
 std::string at_vertex(const SurfaceMesh& mesh, std::uint32_t vertex)

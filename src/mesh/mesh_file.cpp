@@ -54,8 +54,8 @@ const MeshFormat& format_of(const std::filesystem::path& file, bool written)
         if (format.ending == found && (!written || format.write)) return format;
     const std::string ending = file.extension().string();
     fail(written ? "write" : "read", file,
-         (ending.empty() ? "it has no ending" : "its ending is " + in_quotes(ending)) + ", but meshes " +
-             (written ? "are written as " : "end in ") + endings(written));
+         (ending.empty() ? "it has no extension" : "its extension is " + in_quotes(ending)) +
+             ", but meshes " + (written ? "are written as " : "end in ") + endings(written));
 }
 
 std::string file_contents(const std::filesystem::path& file)
@@ -67,12 +67,12 @@ std::string file_contents(const std::filesystem::path& file)
         fail("read", file, "it is a folder; give the name of a mesh file");
     // A pipe could block for ever, and a device never end.
     if (!std::filesystem::is_regular_file(status))
-        fail("read", file, "it is no plain file; save the mesh to one");
+        fail("read", file, "it is not a regular file; save the mesh to one");
 
     std::ifstream stream(file, std::ios::binary);
     if (!stream) fail("read", file, "it cannot be opened; check the permissions");
     const auto size = std::filesystem::file_size(file, error);
-    if (error) fail("read", file, "its size cannot be told (" + error.message() + ")");
+    if (error) fail("read", file, "its size cannot be determined (" + error.message() + ")");
     if (size == 0) fail("read", file, "it is empty (0 bytes); export the mesh again");
 
     std::string contents(size, '\0');

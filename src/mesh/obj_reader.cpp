@@ -114,7 +114,7 @@ private:
         const auto before = static_cast<std::int64_t>(mesh_.vertices.size());
         if (*index < -before)
             fail("the face uses vertex " + std::to_string(*index) + ", but only " + std::to_string(before) +
-                 " vertices stand before it; correct the index");
+                 " vertices precede it; correct the index");
         if (*index > largest_index)
             fail("the face uses vertex " + std::to_string(*index) +
                  ", more than any mesh can have; correct the index");
@@ -148,8 +148,8 @@ private:
                          "; correct the index");
             if (!append_triangles(polygon, mesh_.vertices, mesh_.triangles))
                 fail("the face has " + std::to_string(polygon.size()) +
-                     " corners and is not convex; triangulate the mesh before, above " +
-                     std::to_string(concave_corner_limit) + " corners it is not done here");
+                     " corners and is not convex; triangulate the mesh first: the limit is " +
+                     std::to_string(concave_corner_limit) + " corners");
         }
     }
 

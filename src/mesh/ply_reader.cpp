@@ -197,8 +197,8 @@ SurfaceMesh read_body(const MeshSource& source, const PlyHeader& header, const P
         if (!append_triangles(faces.polygon(i), mesh.vertices, mesh.triangles))
             mesh_error(source, "face " + std::to_string(i) + " has " +
                                    std::to_string(faces.polygon(i).size()) +
-                                   " corners and is not convex; triangulate the mesh before, above " +
-                                   std::to_string(concave_corner_limit) + " corners it is not done here");
+                                   " corners and is not convex; triangulate the mesh first: the limit is " +
+                                   std::to_string(concave_corner_limit) + " corners");
     return mesh;
 }
 

@@ -120,7 +120,7 @@ std::unique_ptr<CacheFile> make_cache_file(const std::string& name)
     if (ending == ".ply" || ending == ".obj") return std::make_unique<MeshSequence>(name);
     throw Error(
         ErrorKind::bad_usage,
-        "a cache named '" + name + "' is of no known kind: use NAME.pc2, NAME_%04d.ply or NAME_%04d.obj");
+        "the cache '" + name + "' has an unknown extension: use NAME.pc2, NAME_%04d.ply or NAME_%04d.obj");
 }
 
 }  // namespace pliant

@@ -113,7 +113,7 @@ public:
         std::filesystem::rename(partial_, target_, error);
         if (!error) return;
         ::unlink(partial_.c_str());
-        fail(file_, "the finished file could not be given its name (" + error.message() + ")");
+        fail(file_, "the finished file could not be renamed to it (" + error.message() + ")");
     }
 
 private:

@@ -100,7 +100,7 @@ int bench_command(const BenchOptions& options)
     }
     const BenchMachine machine{machine_name(options), options.quick};
     std::printf("pliant %s on %s%s\n\n", PLIANT_VERSION, machine.name.c_str(),
-                options.quick ? "; --quick: these figures say nothing" : "");
+                options.quick ? "; --quick: these figures are not meaningful" : "");
     std::fflush(stdout);
 
     BenchTable table;

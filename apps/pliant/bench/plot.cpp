@@ -202,7 +202,7 @@ private:
 void write_plot(AtomicFile& file, const BenchMachine& machine, std::span<const BenchRow> rows)
 {
     Plot(file.stream(), series_of(rows))
-        .write(machine.name + (machine.quick ? "; --quick: these figures say nothing" : ""));
+        .write(machine.name + (machine.quick ? "; --quick: these figures are not meaningful" : ""));
     file.commit();
 }
 

@@ -26,7 +26,7 @@ std::string refusal_of(const vk::raii::PhysicalDevice& physical)
     if (properties.apiVersion < least_version)
         return "it has Vulkan " + version_text(properties.apiVersion) + ", and " +
                version_text(least_version) + " is needed";
-    if (best_queue_family(physical) < 0) return "it has no queue that computes";
+    if (best_queue_family(physical) < 0) return "it has no compute queue";
     const std::string beyond = passes_beyond_limits(properties.limits);
     return beyond.empty() ? beyond : "it cannot run " + beyond;
 }
@@ -64,9 +64,9 @@ std::string PhysicalDeviceInfo::promise() const
 {
     if (float_controls.flush_denormals && float_controls.round_to_nearest) return equal_bits;
     std::string why;
-    if (!float_controls.flush_denormals) why = "it cannot be told to flush denormals (DenormFlushToZero)";
+    if (!float_controls.flush_denormals) why = "it cannot be set to flush denormals (DenormFlushToZero)";
     if (!float_controls.round_to_nearest)
-        why += std::string(why.empty() ? "it cannot be told" : ", nor") +
+        why += std::string(why.empty() ? "it cannot be set" : ", nor") +
                " to round to nearest (RoundingModeRTE)";
     return "equal bits are not promised: " + why;
 }

@@ -488,8 +488,8 @@ std::unique_ptr<VulkanRunner> make_vulkan_runner(std::span<const ClothModel> clo
 {
     if (options.gpu_substeps < 1 || options.gpu_substeps > most_sheet_steps)
         throw Error(ErrorKind::bad_usage, "gpu_substeps is " + std::to_string(options.gpu_substeps) +
-                                              ": a dispatch takes 1 to " + std::to_string(most_sheet_steps) +
-                                              " steps of a sheet");
+                                              ", but must be 1 to " + std::to_string(most_sheet_steps) +
+                                              " steps of a sheet per dispatch");
     try {
         return std::make_unique<Runner>(cloths, options);
     } catch (const vk::SystemError& error) {
