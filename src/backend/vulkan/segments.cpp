@@ -18,7 +18,7 @@ std::vector<Segment> segments_of(std::span<const Call> calls)
         const bool begins = k == 0 || calls[k - 1].guard == Guard::none || calls[k - 1].cloth != call.cloth;
         if (call.guard == Guard::none || call.guarded_after + 1 < least_skipped) continue;
         const Pass before = k > 0 ? calls[k - 1].pass : call.pass;
-        if (before == Pass::solve_begin && !may_idle) continue;  // solve_begin sets its guard
+        if (before == Pass::solve_begin && !may_idle) continue;  // there is always work
         const std::uint32_t least = before == Pass::newton_check ? least_skipped : least_between_looks;
         if (!begins && unseen < least) continue;
         ends[k] = k + call.guarded_after + 1;
