@@ -1,5 +1,5 @@
-# Files that are compiled as one: a compiler spends most of its time on headers, and on templates of the standard library
-# that each file would have a copy of. What is in an unnamed namespace must then have a name of its own within the group.
+# Compiles several files as one: most of a compiler's time goes into headers, and into templates of the standard library
+# that each file would instantiate. Names in unnamed namespaces must then be unique within the group.
 #   pliant_join(TARGET GROUP PATTERN... [EXCEPT REGEX])
 function(pliant_join target group)
     if(NOT PLIANT_JOINED)

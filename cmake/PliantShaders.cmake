@@ -1,8 +1,8 @@
 # Compiles every shader to SPIR-V as numbers, to be included as "shaders/NAME.comp.inc".
 find_program(GLSLC glslc REQUIRED)
 
-# What the table of passes says for shaders: `fast_passes` have a second module for --fast-math; each entry of
-# `solver_passes` is "NAME UNIT TEXT", a row that solver_pass.comp is compiled for.
+# From the table of passes: `fast_passes` have a second module for --fast-math; each entry of `solver_passes` is
+# "NAME UNIT TEXT", a row for which solver_pass.comp is compiled.
 function(pliant_read_passes table)
     file(STRINGS ${table} rows REGEX "^[A-Z]+_PASS\\([a-z_]+,")
     foreach(row IN LISTS rows)
@@ -29,7 +29,7 @@ function(pliant_read_passes table)
     set(solver_passes ${solver} PARENT_SCOPE)
 endfunction()
 
-# The command that makes shaders/VARIANT.inc of a source, by flags.
+# The command that compiles a source to shaders/VARIANT.inc, with flags.
 function(pliant_compile_shader variant source)
     set(output ${PROJECT_BINARY_DIR}/generated/shaders/${variant}.inc)
     get_filename_component(folder ${source} DIRECTORY)
@@ -42,7 +42,7 @@ function(pliant_compile_shader variant source)
     set(outputs ${outputs} ${output} PARENT_SCOPE)
 endfunction()
 
-# Text that makes an array of each module, as C++.
+# C++ text that defines an array for each module.
 function(pliant_array_of_module name variant text)
     set(${text} "${${text}}constexpr std::uint32_t ${name}[] = {\n#include \"shaders/${variant}.inc\"\n};\n" PARENT_SCOPE)
 endfunction()
@@ -54,8 +54,8 @@ function(pliant_add_shaders target)
     pliant_read_passes(${PROJECT_SOURCE_DIR}/src/solve/passes.def)
     list(APPEND passes sheet_steps)  # several calls of sheet_step in a dispatch
     list(APPEND fast_passes sheet_steps)
-    # The optimiser fuses products and sums before we can forbid it (with_exact_arithmetic in shader_code.hpp),
-    # so that compute shaders leave optimising to the driver.
+    # The optimiser fuses products and sums before with_exact_arithmetic (shader_code.hpp) can forbid it, so
+    # compute shaders are not optimised here, only by the driver.
     foreach(folder IN LISTS ARGN)
         file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.comp ${folder}/*.vert ${folder}/*.frag)
         foreach(source IN LISTS sources)

@@ -1,6 +1,6 @@
 # Writes builtin_scenes.cpp: the texts of scene files as C++ literals.
 #   cmake -DOUTPUT=builtin_scenes.cpp "-DINPUTS=a.json;b.json" -P embed_scenes.cmake
-# A scene is known by the name of its file. Schemas (*.schema.json) among the inputs are left out.
+# A scene is named after its file. Schemas (*.schema.json) among the inputs are skipped.
 cmake_minimum_required(VERSION 3.25)
 
 list(FILTER INPUTS EXCLUDE REGEX "\\.schema\\.json$")

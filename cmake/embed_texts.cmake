@@ -1,4 +1,4 @@
-# Writes a C++ file with the texts of others: file NAME.ending becomes text_NAME.
+# Writes a C++ file that embeds texts: the file NAME.ending becomes text_NAME.
 #   cmake -DOUTPUT=texts.cpp "-DINPUTS=a.json;b.py" -DHEADER=texts.hpp -DNAMESPACE=pliant -P embed_texts.cmake
 cmake_minimum_required(VERSION 3.25)
 

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Checks that the table of docs/architecture.md, "The floors of the house", holds: that a file includes its own folder
-and what the row of its folder names, that a row names only what stands above it, and nothing that no file needs.
-Libraries that one place alone may know are checked, too. Ends with 'N passed, N failed'.
+"""Checks that the table of docs/architecture.md, "The floors of the house", holds: a file includes only its own folder
+and the folders in its row; a row lists only rows above it, and only folders that some file needs. Also checks libraries
+that only one place may use. Ends with 'N passed, N failed'.
 
-    check_floors.py [ROOT]      ROOT: another copy of the project than the one that the script lies in
+    check_floors.py [ROOT]      ROOT: another copy of the project; default: the script's own
 """
 import os
 import re
@@ -13,10 +13,10 @@ from pathlib import Path
 ROOT = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).resolve().parent.parent)
 SOURCES = {".cpp", ".hpp", ".inl", ".def", ".glsl", ".comp", ".vert", ".frag"}
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]+(["<])([^">]+)[">]', re.M)
-# Where a name in quotes is looked for, behind the file's own folder; the generated ones are no floor.
+# Where quoted names are searched after the file's own folder; generated files belong to no floor.
 SEARCHED = ["src", "include", "apps/pliant", "benchmarks", "src/laws", "src/backend/vulkan/shaders", "src/render/shaders"]
 GENERATED = "shaders/"
-# Libraries, and the folders or files that alone may know them.
+# Libraries, and the only folders or files that may use them.
 CONFINED = {
     "assimp/": ["src/mesh_file/assimp_reader.cpp"],
     "GLFW/": ["apps/pliant/viewer"],
@@ -25,9 +25,9 @@ CONFINED = {
     "tbb/": ["src/backend/cpu"],
     "vulkan/": ["src/backend/vulkan", "src/render", "src/simulation/device_list.cpp", "apps/pliant/viewer"],
 }
-# A file that may include what its row does not name: the sub-command that is the door to the viewer.
+# A file that may include more than its row lists: the sub-command that starts the viewer.
 DOORS = {("apps/pliant/view_command.cpp", "apps/pliant/viewer")}
-# The text of the kernels uses laws by name, and leaves it to who compiles it to have included them.
+# The text of the kernels uses laws by name; the including file provides them.
 UNSEEN = {("src/kernels", "src/laws")}
 
 
@@ -36,7 +36,7 @@ def is_under(path, folder):
 
 
 def read_floors():
-    """For each folder of the table, from the bottom up, the folders that its files may include."""
+    """By folder of the table, from the bottom up: the folders that its files may include."""
     document = (ROOT / "docs/architecture.md").read_text()
     section = document.split("## The floors of the house")[1].split("\n\n**")[0]
     rows = re.findall(r"^\| `([\w/]+)` \|[^|]*\| ([^|]+) \|$", section, re.M)
@@ -54,7 +54,7 @@ def read_floors():
 
 
 def floor_of(path, floors):
-    """The row that a file belongs to: of the folders that it lies under, the innermost."""
+    """The row of a file: the innermost folder of the table that contains it."""
     return max((folder for folder in floors if is_under(path, folder)), key=len, default=None)
 
 
@@ -67,7 +67,7 @@ def find_included(path, name):
 
 
 def check_order(floors):
-    """A row may name only rows above it."""
+    """A row may list only rows above it."""
     above = []
     for folder, allowed in floors.items():
         for name in allowed:
@@ -107,7 +107,7 @@ def main():
                 files += 1
                 failures += check_file(str(source.relative_to(ROOT)), floors, used)
     for folder, allowed in floors.items():
-        if folder != "apps/pliant/viewer":  # whose row is that of apps/pliant
+        if folder != "apps/pliant/viewer":  # it shares the row of apps/pliant
             failures += [f"docs/architecture.md: no file of {folder} needs {name}" for name in allowed
                          if (folder, name) not in used | UNSEEN]
     if len(floors) < 10 or files < 200:

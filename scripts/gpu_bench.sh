@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# What a GPU must do: speeds against their bars, and the same bits as the CPU. Needs a Vulkan driver and the built
-# program, nothing else:
+# Tests a GPU: speeds against their bars, and the same bits as the CPU. Needs only a Vulkan driver and the built program:
 #
 #   scripts/gpu_bench.sh [--quick] [PLIANT] [DEVICE] [FOLDER]
 #
-# --quick: tiny sizes, for their bits alone. PLIANT: build/release/bin/pliant. DEVICE: a number of `pliant info`; by default the best. FOLDER: where the CSV files
-# go, build/gpu_bench. A software driver (llvmpipe) is always --quick: its speeds say nothing.
-# Exit codes: 0 all bars met and all bits equal, 1 not, 2 it could not be run.
+# --quick: tiny sizes, to compare bits only; always used with a software driver (llvmpipe).
+# PLIANT: the program, default build/release/bin/pliant. DEVICE: a number of `pliant info`, default the best.
+# FOLDER: for the CSV files, default build/gpu_bench.
+# Exit codes: 0 all bars met and all bits equal, 1 otherwise, 2 it could not run.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 quick=()
@@ -19,12 +19,12 @@ device=${2:-}
 folder=${3:-build/gpu_bench}
 
 if [ ! -x "$pliant" ]; then
-    echo "gpu_bench: there is no program '$pliant': build it first (./dev build), or name it" >&2
+    echo "gpu_bench: there is no program '$pliant': build it (./dev build), or give its path" >&2
     exit 2
 fi
 devices=$("$pliant" info | grep -- '--backend vulkan --device' || true)
 if [ -z "$devices" ]; then
-    echo "gpu_bench: no Vulkan device was found; install a driver and look at '$pliant info'" >&2
+    echo "gpu_bench: no Vulkan device was found; install a driver and run '$pliant info'" >&2
     exit 2
 fi
 if [ -n "$device" ]; then
@@ -44,12 +44,12 @@ mkdir -p "$folder"
 sheets=1024,16384,262144,1048576,7817616 bodies=3000,31112,500000
 if grep -q '(software' <<<"$chosen"; then quick=(--quick); fi
 if [ ${#quick[@]} -gt 0 ]; then
-    echo "Tiny sizes, for their bits alone."
+    echo "Tiny sizes, to compare bits only."
     sheets=30,1000 bodies=1000
 fi
 
 failed=0
-# The same cases on both: bench SUITE SIZES
+# Runs the same cases on both backends: bench SUITE SIZES
 bench() {
     "$pliant" bench "$1" --backend vulkan --device "$device" --sizes "$2" "${quick[@]}" --csv "$folder/$1_vulkan.csv" ||
         failed=1
@@ -57,7 +57,7 @@ bench() {
 }
 bench mss "$sheets"
 bench volume "$bodies"
-# The same sheets with several steps in a dispatch, and with arithmetic that is not the same everywhere.
+# The same sheets with several steps per dispatch, and with fast math.
 variants=(steps_2 steps_3 steps_4 fast)
 for variant in "${variants[@]}"; do
     option=(--gpu-substeps "${variant#steps_}")
@@ -70,7 +70,7 @@ if [ ${#quick[@]} -eq 0 ]; then
         failed=1
 fi
 
-# Fields in quotes may have commas (the device): they are taken out first.
+# Quoted fields (the device) may contain commas, which are removed first.
 fields() { cat "$@" | sed -e ':again' -e 's/\(,"[^",]*\),\([^"]*",\)/\1\2/' -e 't again'; }
 column='function column(name,   k) { for (k = 1; k <= NF; ++k) if (head[k] == name) return $k; }
         $1 == "row" { for (k = 1; k <= NF; ++k) head[k] = $k; next }'
@@ -84,7 +84,7 @@ fields "$folder"/*_vulkan.csv "$folder"/mss_fast.csv | awk -F, "$column"'
     }
     END { exit missed }' || failed=1
 echo "Bits, against the CPU:"
-# Of CSV files of both: bits REMARK FILE...
+# Compares CSV files of both backends: bits REMARK FILE...
 bits() {
     fields "${@:2}" | awk -F, -v remark="$1" "$column"'
     column("state_hash") != "" {

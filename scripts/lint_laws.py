@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Checks that src/laws/*.law.glsl keep to portable arithmetic (docs/architecture.md, "Rules").
+"""Checks that src/laws/*.law.glsl use only portable arithmetic (docs/architecture.md, "Rules").
 
-A law gives the same bits on every machine only if it is made of +, -, *, comparison and choice. Compilers find most of
-what does not belong there; this finds the rest:
-  - built-in functions, whose precision is the device's own, or which a compiler may contract;
+A law gives the same bits on every machine only if it consists of +, -, *, comparison and choice. Compilers reject most
+violations; this script finds the rest:
+  - built-in functions, whose precision depends on the device, or which a compiler may contract;
   - division, which Vulkan does not round correctly;
   - swizzles other than .x .y .z .w, which C++ does not have;
-  - literals that are not float, or not the number that they look like.
+  - literals that are not float, or whose digits are not those of the float.
 """
 
 import re
@@ -17,7 +17,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 
-# Built-ins of GLSL that take or give floats.
+# Built-ins of GLSL with float arguments or results.
 BUILT_INS = """
     abs acos acosh all any asin asinh atan atanh ceil clamp cos cosh cross degrees distance dot equal exp exp2
     faceforward floor fma fract frexp greaterThan greaterThanEqual inversesqrt isinf isnan ldexp length lessThan
@@ -30,13 +30,13 @@ CALL = re.compile(r"(?<![\w.])(" + "|".join(BUILT_INS) + r")\s*\(")
 SWIZZLE = re.compile(r"\.\s*([xyzw]{1,4}|[rgba]{1,4}|[stpq]{1,4})\b(?!\s*\()")
 DIVISION = re.compile(r"/")
 
-# A literal that is not exact in binary must show by its digits that its rounding is meant, as 0.33333334f and
-# 5.421011e-20f (2^-64) do.
+# A literal that is not exact in binary must have the digits of the rounded number, such as 0.33333334f and
+# 5.421011e-20f (2^-64).
 DIGITS_OF_A_ROUNDED_LITERAL = 7
 
 
 def without_comments(text):
-    """The same text with comments and preprocessor lines blanked, so that places in it stay what they were."""
+    """The same text with comments and preprocessor lines blanked, so that positions do not change."""
     blank = lambda match: re.sub(r"[^\n]", " ", match.group())
     text = re.sub(r"//[^\n]*|/\*.*?\*/", blank, text, flags=re.DOTALL)
     return re.sub(r"^[ \t]*#[^\n]*", blank, text, flags=re.MULTILINE)
@@ -50,7 +50,7 @@ def to_float32(number):
 
 
 def shortest(value):
-    """The shortest decimal that gives a float32 back."""
+    """The shortest decimal that reads back as the same float32."""
     return next(text for digits in range(1, 18) if to_float32(float(text := f"{value:.{digits}g}")) == value)
 
 
@@ -72,7 +72,7 @@ def literal_problem(number, suffix):
 
 
 def problems_of(text):
-    """(place in the text, message) for each problem."""
+    """Yields (position, message) for each problem."""
     text = without_comments(text)
     for match in FLOAT_LITERAL.finditer(text):
         message = literal_problem(match[1] + (match[2] or ""), match[3])

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes the pictures of docs/manual. The scenes are the ```json blocks of its pages, found by their "name".
+"""Renders the pictures of docs/manual. The scenes are the ```json blocks of its pages, found by their "name".
 
     manual_pictures.py TOOL [NAME...]      TOOL: the program pliant. NAME: only these pictures, as stiffness_200
 
@@ -35,7 +35,7 @@ PICTURES += [("volume_springs", "ball", ["method=mass_spring"], [])]
 
 
 def scenes():
-    """Text of each scene of the manual, by its name."""
+    """The text of each scene in the manual, by name."""
     found = {}
     for page in sorted(MANUAL.glob("*.md")):
         for block in BLOCK.findall(page.read_text()):

@@ -1,28 +1,28 @@
 #!/usr/bin/env python3
-"""Breaks Pliant in many small ways, one at a time, and demands that the tests notice each.
+"""Breaks Pliant in many small ways, one at a time, and checks that the tests notice each.
 
-  scripts/mutants.py                    all mutants of tests/mutants; exit code 1 if one survives
-  scripts/mutants.py --list             what they are
+  scripts/mutants.py                    all mutants of tests/mutants; exit code 1 if any survives
+  scripts/mutants.py --list             lists them
   scripts/mutants.py --only cpu 'laws.*sign*'   some of them
-  scripts/mutants.py --resume           leaves out those that are known as killed, unless they, the file that they
-                                        break or the tests that should notice have changed
-  scripts/mutants.py --named-only       does not fall back to all quick tests for those that survive their own
+  scripts/mutants.py --resume           skips those that are known to be killed, unless they, their file or their
+                                        killers have changed
+  scripts/mutants.py --named-only       does not try all quick tests on those that survive their own killers
 
 A mutant is a table in tests/mutants/FLOOR.toml:
 
-  file     what it breaks, and `old`, the text there, which must occur once; `which` says which one where it occurs
-           more often, `within` gives a longer text that occurs once and holds it
-  new      what stands there instead. Whole statements, or a whole expression; else `switch` is a text that says
-           MUTANT where the mutant is to be: "MUTANT ? broken : right"
-  breaks   what is wrong then
-  killers  tests that should notice, the cheapest first: of GoogleTest by patterns of their names (Suite.Name; the
-           suite alone is all of it), or names of CTest
+  file     the file that it changes, and `old`, a text in it, which must occur once; else `which` is the number of the
+           occurrence, or `within` a longer text that occurs once and contains it
+  new      the replacement: whole statements, or a whole expression; else `switch` is a text with
+           MUTANT in place of the mutant: "MUTANT ? broken : right"
+  breaks   what is then wrong
+  killers  tests that should notice, the cheapest first: patterns of GoogleTest names (Suite.Name; a suite alone
+           means all its tests), or names of CTest
 
-It works in a copy, build/mutants, so that the tree is not touched. All mutants of C++ are in one build: each is a branch
-that the environment chooses (PLIANT_MUTANT). Texts that shaders are made of as well keep the shaders as they are, so
-that tests which need a Vulkan device say nothing of them: those run without one, and what fails for that is left out.
-Mutants of shaders, and of texts that are no code, are built one by one. A killer must be green without the mutant;
-one that hangs is red. What survives its killers is built by itself, and must make one of all quick tests red.
+It works in a copy, build/mutants. All C++ mutants are in one build: each is a branch that the environment variable
+PLIANT_MUTANT selects. In texts that are compiled into shaders, too, the shaders are not mutated, so tests on Vulkan
+would not notice; tests of these mutants run without Vulkan, and tests that fail for lack of it are skipped. Mutants of
+shaders, and of texts other than code, are built one by one. A killer must pass without the mutant; one that hangs
+counts as failed. A mutant that survives its killers is built separately, and one of all quick tests must fail on it.
 """
 import argparse
 import concurrent.futures
@@ -43,11 +43,11 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 WORK = ROOT / "build" / "mutants"
 SOURCE, BUILD, RESULTS = WORK / "source", WORK / "build", WORK / "results.json"
-CODE = (".cpp", ".hpp", ".inl", ".law.glsl", ".kernel.glsl")  # what can be a branch of one program
-SHARED = ("src/laws/", "src/kernels/")  # texts of shaders, too
+CODE = (".cpp", ".hpp", ".inl", ".law.glsl", ".kernel.glsl")  # can be branches of one program
+SHARED = ("src/laws/", "src/kernels/")  # also compiled into shaders
 OPTIONS = ["-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG -w",
            "-DPLIANT_WARNINGS_AS_ERRORS=OFF", "-DPLIANT_JOINED=OFF"]
-LEAST_TIMEOUT, TIMES_LONGER = 120, 20  # s, and against what the test takes without the mutant
+LEAST_TIMEOUT, TIMES_LONGER = 120, 20  # s, and relative to the test's time without the mutant
 DECLARATION = "extern const int pliant_mutant;\n"
 DEFINITION = """#include <cstdlib>
 extern const int pliant_mutant;
@@ -111,18 +111,18 @@ def load(patterns):
     chosen = [m for m in mutants if not patterns or any(
         m.floor == p or fnmatch.fnmatch(m.name, p) for p in patterns)]
     if not chosen:
-        sys.exit("no mutant has such a name; --list shows them")
+        sys.exit("no mutant has this name; --list shows all")
     return mutants, chosen
 
 
 def with_branches(mutants):
-    """The texts that mutants break, with all of them as branches."""
+    """The mutated files, with all mutants as branches."""
     texts = {}
     for m in mutants:
         if not m.is_branch:
             continue
         text = texts.get(m.file) or (ROOT / m.file).read_text()
-        # Of several mutants of the same text each is a branch of the one before.
+        # Several mutants of the same text are nested branches.
         frame = m.table.get("within", "").strip() or m.old
         if frame not in text:
             frame = m.old
@@ -139,7 +139,7 @@ def with_branches(mutants):
 
 
 def write(path, content):
-    """Only what differs, so that nothing is built in vain."""
+    """Writes only files that differ, to avoid rebuilding."""
     data = content if isinstance(content, bytes) else content.encode()
     if path.is_file() and path.read_bytes() == data:
         return
@@ -148,7 +148,7 @@ def write(path, content):
 
 
 def copy_tree(texts, wanted_tests):
-    """Tests that nobody wants are empty files."""
+    """Replaces test files that no mutant needs by empty ones."""
     listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard", "-z"], cwd=ROOT, check=True,
                             capture_output=True, text=True).stdout.split("\0")
     files = {f for f in listed if f and (ROOT / f).is_file()}
@@ -156,7 +156,7 @@ def copy_tree(texts, wanted_tests):
         is_left_out = file.startswith("tests/") and file.endswith("_test.cpp") and file not in wanted_tests
         write(SOURCE / file, b"" if is_left_out else texts.get(file) or (ROOT / file).read_bytes())
         shutil.copymode(ROOT / file, SOURCE / file)
-    # Where every file of the library may see it.
+    # A folder that every file of the library can include from.
     laws = "src/laws/laws.hpp"
     write(SOURCE / laws, (texts.get(laws) or (ROOT / laws).read_text()).replace(
         "#pragma once\n", "#pragma once\n" + DECLARATION, 1))
@@ -314,7 +314,7 @@ class Run:
                 f"({seconds:.0f} s; {clock(elapsed)} gone, about {clock(left)} left)")
 
     def try_killers(self, mutant, number):
-        """The first killer that is red, and a word on those that could not be used."""
+        """The first killer that fails, and a note on those that could not be used."""
         unusable = []
         without_device = mutant.without_device and number > 0
         for name in mutant.killers:
@@ -336,7 +336,7 @@ class Run:
         return None, unusable
 
     def branches(self):
-        """All mutants that are branches of one build; returns what they leave alive."""
+        """Runs all mutants that are branches of one build; returns the survivors."""
         alive, branches = [], [m for m in self.todo if m.is_branch]
         if not branches:
             return alive
@@ -361,7 +361,7 @@ class Run:
         return alive
 
     def alone(self, mutant):
-        """A mutant in a build of its own."""
+        """Runs one mutant in a separate build."""
         start = time.monotonic()
         broken = mutant.plain((ROOT / mutant.file).read_text())
         write(SOURCE / mutant.file, broken)
@@ -382,7 +382,7 @@ class Run:
             self.restore(mutant)
 
     def quick_tests(self, mutant, broken):
-        """All of them, for a mutant that its own killers have let pass: the first that is red, and green without it."""
+        """Runs all quick tests on a survivor; returns the first that fails with the mutant only."""
         red_anyway = set()
         copy_tree(dict(self.texts, **{mutant.file: broken}), {str(p.relative_to(ROOT)) for p in (ROOT / "tests").rglob("*")})
         while True:
@@ -398,14 +398,14 @@ class Run:
             build([], self.options.jobs)
             if run(["ctest", "-R", f"^{re.escape(failed[1])}$"], cwd=BUILD).returncode == 0:
                 return failed[1]
-            red_anyway.add(re.escape(failed[1]))  # rules of the sources, which branches break
+            red_anyway.add(re.escape(failed[1]))  # tests of source rules, which branches violate
             write(SOURCE / mutant.file, broken)
 
     def restore(self, mutant):
         write(SOURCE / mutant.file, self.texts.get(mutant.file) or (ROOT / mutant.file).read_text())
 
     def shaders_as_they_are(self):
-        """Killers of mutants that are built alone must be green in the build without any."""
+        """Killers of mutants that are built separately must pass in the build without mutants."""
         names = {name for m in self.todo if not m.is_branch for name in m.killers}
         killers = [k for name in names for k in self.tests.killers(name)]
         targets = {t for k in killers for t in k.targets}

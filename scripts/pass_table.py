@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Holds the tables of passes in docs/architecture.md against src/solve/passes.def, from which they are made. Ends with
+"""Compares the tables of passes in docs/architecture.md with src/solve/passes.def, from which they are generated. Ends with
 'N passed, N failed'.
 
     pass_table.py            compares
@@ -38,7 +38,7 @@ def row_of(match):
 
 
 def tables(definition):
-    """The text between the markers, and how many passes it has."""
+    """The text between the markers, and the number of its passes."""
     parts, passes = [], 0
     starts = list(SECTION.finditer(definition))
     for start, end in zip(starts, [s.start() for s in starts[1:]] + [len(definition)]):

@@ -1,6 +1,5 @@
-// A solve of ACAD is over the rows alone that a marked spring reaches (kernels/acad.kernel.glsl): what is far
-// from every constraint is as springs alone leave it, and nothing of the solve before is left when the next
-// one begins.
+// A solve of ACAD runs only over rows that a marked spring reaches (kernels/acad.kernel.glsl): nodes far from
+// every constraint move as with springs alone, and nothing of one solve is left when the next begins.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +16,7 @@ constexpr std::uint32_t rows = 64, columns = 9;
 constexpr double dt = 1e-4;  // s
 constexpr double activate_at = 0.1, marked_at = 0.8 * activate_at;
 
-/// A strip without weight, 9 nodes wide: nothing moves but what is stretched.
+/// A strip without gravity, 9 nodes wide: only stretched parts move.
 Scene strip(bool on_mesh, double threshold = activate_at)
 {
     SurfaceMesh mesh;
@@ -42,7 +41,7 @@ Scene strip(bool on_mesh, double threshold = activate_at)
     return scene;
 }
 
-/// The model's positions, with the strip pulled apart by 12 % of a spring's length behind a row.
+/// The model's positions, with the strip pulled apart by 12 % of a spring's length after a row.
 std::vector<Vec3> pulled_apart(const ClothModel& model, std::uint32_t row, float part = 0.12f)
 {
     std::vector<Vec3> positions = model.shape.positions;
@@ -74,7 +73,7 @@ Step step_from(PassRunner& runner, const ClothModel& model, const std::vector<Ve
     return step;
 }
 
-/// The rows, or groups of a mesh's nodes, that a solve of a state takes, found spring by spring.
+/// The rows, or groups of a mesh's nodes, in a state's solve, found spring by spring.
 std::set<std::size_t> expected_rows(const ClothModel& model, const std::vector<Vec3>& positions)
 {
     std::set<std::size_t> expected;
@@ -97,7 +96,7 @@ std::set<std::size_t> expected_rows(const ClothModel& model, const std::vector<V
     return expected;
 }
 
-/// Those that the solver has flagged.
+/// The rows that the solver has flagged.
 std::set<std::size_t> live_rows(PassRunner& runner, const ClothModel& model)
 {
     const SolverLevel& cloth = model.hierarchy.levels.front();
@@ -168,7 +167,7 @@ TEST_P(AcadRows, AloneAreMoved)
 TEST_P(AcadRows, LeaveNothingForTheNextSolve)
 {
     const std::vector<Vec3> first = pulled_apart(model, 20);
-    for (const std::uint32_t row : {47U, 23U}) {  // far off, and near enough for what is left to be read
+    for (const std::uint32_t row : {47U, 23U}) {  // one far away, one close enough to read leftovers
         const std::vector<Vec3> second = pulled_apart(model, row);
         Step on_cpu;
         for (const Backend backend : test::backends()) {
@@ -201,7 +200,7 @@ TEST_P(AcadRows, ArePartedAmongThreadsWithoutAChange)
 
 TEST_P(AcadRows, AreThoseNearTheThresholdToo)
 {
-    // Once a spring is beyond it: those that the step may take there, from 8 % on.
+    // If one spring exceeds it: the springs that the step may take there, from 8 % on.
     std::vector<Vec3> start = pulled_apart(model, 20);
     const std::vector<Vec3> less = pulled_apart(model, 40, 0.09f);
     for (std::uint32_t i = 0; i < start.size(); ++i) {

@@ -1,5 +1,5 @@
-// Whole sheets of ACAD: soft ones, and such as are stepped implicitly because their steps are long. They must
-// fall, lose energy, keep to their threshold and come to rest as springs alone do.
+// Whole sheets of ACAD: soft ones, and ones with steps so long that they are implicit. They must fall, lose
+// energy, keep to their threshold and come to rest as with springs alone.
 #include <gtest/gtest.h>
 
 #include "pliant/pliant.hpp"
@@ -29,7 +29,7 @@ Scene hung_sheet(std::uint32_t n, double stiffness, std::uint32_t substeps, doub
 }
 
 struct SheetRun {
-    double longest = 0, most_gained = 0;  ///< of a frame: stretch, and J of energy
+    double longest = 0, most_gained = 0;  ///< over all frames: strain, and gain of energy in a frame, J
     double first_energy = 0, energy = 0;  ///< J
     FrameMeasures last;
     SolverReport solver;
@@ -58,8 +58,8 @@ SheetRun run(const Scene& scene, int frames)
 
 TEST(AcadSheet, SoftOnesLoseEnergyAndKeepToTheirThreshold)
 {
-    // Stiffness, N/m, and steps a frame: corrected ones, and one that is implicit. All of them are stretched
-    // by several times the threshold of 10 % as mass_spring.
+    // Stiffness, N/m, and steps per frame: corrected ones, and an implicit one. With mass_spring all of them
+    // stretch by several times the threshold of 10 %.
     struct Case {
         double stiffness;
         std::uint32_t substeps;
@@ -69,8 +69,8 @@ TEST(AcadSheet, SoftOnesLoseEnergyAndKeepToTheirThreshold)
         SCOPED_TRACE(testing::Message() << c.stiffness << " N/m, substeps " << c.substeps);
         EXPECT_LE(sheet.longest, 0.12);
         EXPECT_GT(sheet.longest, 0.1 - 1e-4);  // the threshold is reached
-        // Steps of springs alone are symplectic: energy swings a little around its mean. The sheet that
-        // boiled won 1.6 J of 9.8 J in a frame.
+        // Steps with springs alone are symplectic: energy oscillates slightly about its mean. A jittering
+        // sheet gained 1.6 J of 9.8 J in a frame.
         EXPECT_LE(sheet.most_gained, 1e-3 * sheet.first_energy);
         EXPECT_LT(sheet.energy, 0.7 * sheet.first_energy);
         EXPECT_GT(sheet.solver.active_max, 0U);
@@ -80,7 +80,7 @@ TEST(AcadSheet, SoftOnesLoseEnergyAndKeepToTheirThreshold)
 
 TEST(AcadSheet, InLongStepsRestsAsSpringsAloneDo)
 {
-    // The default springs in one step of 1/60 s, 18 times as long as they can be stepped explicitly.
+    // The default springs in one step of 1/60 s, 18 times the longest stable explicit step.
     Scene scene = hung_sheet(20, Springs{}.structural.stiffness, 1, 1);
     Scene springs = scene;
     springs.method = Method::mass_spring;
@@ -88,7 +88,7 @@ TEST(AcadSheet, InLongStepsRestsAsSpringsAloneDo)
     const SheetRun sheet = run(scene, 480), alone = run(springs, 480);
     EXPECT_NEAR(sheet.last.mean_stretch, alone.last.mean_stretch, 0.01 * 0.1);
     EXPECT_NEAR(sheet.last.max_stretch, alone.last.max_stretch, 0.03);
-    EXPECT_LT(sheet.last.max_speed, 0.05);  // a free hem of implicit steps that trembles has 1 m/s
+    EXPECT_LT(sheet.last.max_speed, 0.05);  // a trembling free hem of implicit steps has 1 m/s
     EXPECT_LE(sheet.longest, 0.12);
     EXPECT_LT(sheet.energy, 0.7 * sheet.first_energy);
 }

@@ -1,5 +1,5 @@
 // Barriers between the passes of whole frames: wherever two calls touch the same memory and one of them
-// writes, there is one between them, found here call by call and pair by pair.
+// writes, a barrier must be between them. The test checks all pairs of calls.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace pliant {
 namespace {
 
-/// The memory behind a resource: each copy of the state is the current one in every second step.
+/// The memory of a resource: each copy of the state is current in every second step.
 std::pair<std::uint32_t, std::string> memory_of(const Call& call, Resource resource)
 {
     const std::string now = std::to_string(call.parity), next = std::to_string(1 - call.parity);
@@ -64,8 +64,7 @@ TEST_P(Barriers, PartAllThatDependsOnEachOtherAndNoMore)
     const auto& [method, body] = GetParam();
     const Scene scene = scene_of(method, body);
     std::vector<ClothModel> models;
-    for (int k = 0; k < 2; ++k)
-        models.emplace_back(scene.cloth(0), scene);  // which have nothing to do with each other
+    for (int k = 0; k < 2; ++k) models.emplace_back(scene.cloth(0), scene);  // which are independent
     std::vector<Call> calls;
     append_frame(models, 3, 0, calls, 0);
     calls.resize(std::min<std::size_t>(calls.size(), 1000));
@@ -94,7 +93,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, Barriers,
 
 TEST(BarrierPlan, PartsWhatFramesDoNotHave)
 {
-    // In a frame two steps always meet in more than one place.
+    // In a frame two steps always conflict in more than one resource.
     using Calls = std::vector<Call>;
     const auto last_needs_one = [](const Calls& calls) {
         vulkan::BarrierPlan plan;
@@ -106,7 +105,7 @@ TEST(BarrierPlan, PartsWhatFramesDoNotHave)
     const Call pins_0{Pass::attach, 0, 0}, pins_1{Pass::attach, 0, 1};
     EXPECT_TRUE(last_needs_one({draws_0, pins_1}));   // writes what was read
     EXPECT_FALSE(last_needs_one({draws_1, pins_1}));  // the other copy
-    EXPECT_TRUE(last_needs_one({pins_0, draws_1}));   // reads what was written, by another role
+    EXPECT_TRUE(last_needs_one({pins_0, draws_1}));   // reads what was written in another role
     EXPECT_TRUE(last_needs_one({pins_1, draws_0}));
     EXPECT_FALSE(last_needs_one({pins_0, draws_0}));
     EXPECT_TRUE(last_needs_one({draws_0, draws_1}));  // both write normals

@@ -1,4 +1,4 @@
-// The baselines of `pliant bench` move as Pliant's reference does: they do the same work.
+// The baselines of `pliant bench` move like Pliant's reference, so they do the same work.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,10 +16,10 @@
 namespace pliant {
 namespace {
 
-// Both take the same steps in the same order, so that only rounding parts them. How much a scene amplifies
-// rounding, Pliant's own backend in floats tells: the baseline may end 8 times as far from the reference,
-// since it adds a node's springs in another order and rounds its square roots otherwise. What a baseline that
-// does less work would show is more by orders of magnitude (last test).
+// Both take the same steps in the same order and differ only by rounding. The difference between Pliant's
+// float backend and the reference shows how much a scene amplifies rounding. A baseline may differ by 8 times
+// as much, since it adds a node's springs in another order and computes square roots differently. A baseline
+// that does less work differs by orders of magnitude (last test).
 constexpr double slack = 8;
 
 constexpr double duration = 0.2;  // s: a fall of 20 cm
@@ -32,7 +32,7 @@ Scene steady(Cloth cloth, std::uint32_t steps_per_frame)
     return scene;
 }
 
-/// Hangs from its upper edge, where it is in tension all over, and swings against a sphere and a wall.
+/// Hangs from its upper edge, under tension everywhere, and swings against a sphere and a wall.
 Scene hung_sheet(std::uint32_t rows, std::uint32_t columns)
 {
     Cloth cloth = test::flat_sheet(rows, columns);
@@ -47,7 +47,7 @@ Scene hung_sheet(std::uint32_t rows, std::uint32_t columns)
     return scene;
 }
 
-/// How a scene ends, by Pliant and by a baseline.
+/// The final differences of a scene stepped by Pliant and by a baseline.
 struct Runs {
     double apart = 0;         ///< m, of the baseline from the reference
     double rounding = 0;      ///< m, of the backend cpu from the reference
@@ -108,7 +108,7 @@ TEST(SerialCloth, OfAMeshFallsAsTheReferenceDoes)
     expect_same_motion(runs_of(scene, serial::cloth_of(scene)));
 }
 
-/// Held at its head and let go, so that its springs give and its volume would.
+/// Pinned at its head and released, so that its springs stretch.
 Scene hung_body()
 {
     Cloth body = Cloth::soft_body(blob_mesh({.height = 0.5, .vertices = 1000}), {}, {.node_mass = 0.01});
@@ -178,7 +178,7 @@ TEST(BulletSoftBody, FallsAsAnythingThatNothingHolds)
         EXPECT_NEAR(double{cloth.nodes[i].position.y} - double{places[i].y}, fall, 0.02 * fall);
 }
 
-/// A sheet that is let go from the horizontal, held along one edge, of Pliant's and of Bullet's making.
+/// A sheet released from the horizontal, pinned along one edge, by Pliant and by Bullet.
 struct Let {
     std::vector<Vec3> start, ours, bullets;
     std::vector<serial::Spring> springs;
@@ -206,7 +206,7 @@ Let let_go(const std::function<void(serial::Cloth&)>& change)
     return let;
 }
 
-/// The largest stretch of its structural and shear springs. (A skip spring between nodes of a fold is none.)
+/// The largest strain of its structural and shear springs. (Skip springs across a fold do not count.)
 double stretch_of(const std::vector<Vec3>& x, const std::vector<serial::Spring>& springs)
 {
     test::Largest stretch;
@@ -217,9 +217,9 @@ double stretch_of(const std::vector<Vec3>& x, const std::vector<serial::Spring>&
 
 TEST(BulletSoftBody, HangsAndSwingsAsOurClothDoes)
 {
-    // Its links are as stiff as one projection in a step makes them, and ours of 1,000 N/m: both give some
-    // per mille. Skip springs that are links, and what projection damps, make its way another one, by an
-    // eighth of what the free edge falls.
+    // Its links are as stiff as one projection per step makes them, ours have 1,000 N/m: both stretch by some
+    // per mille. Bullet's skip springs are links, and projection damps, so its motion differs by an eighth of
+    // the fall of the free edge.
     const Let whole = let_go([](serial::Cloth&) {});
     if (whole.bullets.empty()) GTEST_SKIP() << "built without Bullet";
     const double moved = test::largest_difference(whole.ours, whole.start);

@@ -1,4 +1,4 @@
-// Which springs the solver paper takes for constraints, how a model starts, and what a step begins with.
+// Which springs the paper's solver treats as constraints, how a model starts, and what a step begins with.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -50,8 +50,8 @@ TEST(ConstraintRows, AreScannedLevelByLevel)
 
 TEST(SolverCycle, IsSymmetric)
 {
-    // Conjugate gradients ask for a symmetric preconditioner: what smooths a level before the coarser one
-    // does so after it the other way round. The first of the steps before is made by who writes the residual.
+    // Conjugate gradients need a symmetric preconditioner: smoothing after the coarser level must be the
+    // reverse of that before it. The pass that writes the residual makes the first smoothing step.
     Scene scene;
     scene.method = Method::constraint;
     scene.newton_multigrid.smoothing = 3;
@@ -66,7 +66,7 @@ TEST(SolverCycle, IsSymmetric)
         if (call.pass == Pass::level_smooth && call.level == 0)
             (is_back ? after : before).push_back(call.detail >> 1);
     }
-    // The solution of the last level is in its first copy, that of others where smoothing has left it.
+    // The coarsest level's solution is in its first copy, others where smoothing left it.
     const auto last = static_cast<std::uint32_t>(model.hierarchy.level_count()) - 1;
     for (const Call& call : calls)
         if (call.pass == Pass::sheet_prolong) {

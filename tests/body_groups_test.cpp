@@ -1,5 +1,5 @@
-// Bodies that are stepped together as one model: each as it would be alone, with its own forces and material,
-// and measured where it is.
+// Bodies that are stepped together as one model: each moves as it would alone, with its own forces and
+// material, and is measured at its own place.
 #include <gtest/gtest.h>
 
 #include "pliant/pliant.hpp"
@@ -63,8 +63,8 @@ TEST(BodyGroups, EachHasItsOwnMaterial)
 {
     Cloth soft = ball_at({0, 0, 0}), stiff = ball_at({2, 0, 0});
     stiff.springs.structural.stiffness = 5000;
-    // Its stable step is 0.8 ms; a body that diverges would end the others' motion, too.
-    for (Cloth* body : {&soft, &stiff})  // so that the springs have something to do
+    // Its stable step is 0.8 ms; a diverging body would stop the others, too.
+    for (Cloth* body : {&soft, &stiff})  // so that the springs are stretched
         body->body->forces = {{{{-9, 0.2, -9}, {9, 9, 9}}, {0, 20, 0}, {}}};
     Scene together = weightless({soft, stiff});
     together.time.substeps = 40;
@@ -73,7 +73,7 @@ TEST(BodyGroups, EachHasItsOwnMaterial)
 
 TEST(BodyGroups, EachMeetsTheCollidersWhereTheyAre)
 {
-    // Of two materials, and so two models with an origin each; the sphere is under the first alone.
+    // With two materials, and thus two models with different origins; only the first is above the sphere.
     Cloth first = ball_at({0, 0, 0}), second = ball_at({4, 0, 0});
     second.springs.structural.stiffness = 400;
     first.velocity = second.velocity = {0, -1, 0};

@@ -1,6 +1,6 @@
-// The passes of soft bodies on every backend, on odd sizes: cpu (each instruction set of this machine, 1, 2,
-// 3 and 7 threads) and vulkan must agree bit by bit, and both must follow the double-precision reference to
-// rounding.
+// The passes of soft bodies on every backend, with odd sizes: cpu (each instruction set of this machine, 1,
+// 2, 3 and 7 threads) and vulkan must agree bit by bit, and both must match the double-precision reference up
+// to rounding.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -99,7 +99,7 @@ ClothModel shaken_model(const Scene& scene)
 
 using Results = std::map<Resource, std::vector<float>>;
 
-/// Everything that two steps compute: the second starts from what the first found blocked.
+/// The results of two steps: the second uses the blocked directions of the first.
 Results results_of(PassRunner& runner, const ClothModel& model, const Scene& scene)
 {
     Program program{1, {}, 0};
@@ -158,11 +158,11 @@ TEST_P(BodyPassParity, AllBackendsAgree)
         EXPECT_LE(test::largest_difference(expected.at(resource), exact.at(resource)), tolerance)
             << "resource " << static_cast<int>(resource);
     };
-    // The correction turns the rounding of positions, over a step, into velocity.
+    // Over a step, the correction converts rounding of positions into velocity.
     const double correction = GetParam().constrained ? 16 * rounding / dt : 0;
     expect_near(Resource::velocity, velocity_tolerance + correction);
     expect_near(Resource::position, (velocity_tolerance + correction) * dt + 8 * rounding);
-    // What held a node back, by normal and number; no node is so near to a surface that rounding decides.
+    // Normal and count of blocking colliders; no node is so close to a surface that rounding decides.
     if (GetParam().constrained) expect_near(Resource::blocked, 1e-4);
     expect_near(Resource::volumes, 1e-6 * exact.at(Resource::volumes)[0]);
 }

@@ -1,4 +1,5 @@
-// Meshes are refused as bodies with volume, in words that help, and the files of bad_meshes.py are mended.
+// Meshes are refused as bodies with volume, with helpful messages, and the files of bad_meshes.py are
+// repaired.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,8 +36,8 @@ TEST(RequireClosed, says_where_the_hole_is_and_what_to_do)
         message.starts_with("'shape.ply' cannot be a body with volume: it is not closed: 3 edges in 1 "
                             "boundary loop, the longest of 3 edges and 3.41421 m at vertex "))
         << message;
-    EXPECT_TRUE(
-        message.ends_with(" m; mend it by 'pliant check shape.ply --repair --fill-holes --out FIXED.ply'"))
+    EXPECT_TRUE(message.ends_with(
+        " m; repair it with 'pliant check shape.ply --repair --fill-holes --out FIXED.ply'"))
         << message;
     mesh.file = "folder/shape.ply";
     EXPECT_NE(refusal_of(mesh).find("check folder/shape.ply --repair"), std::string::npos);
@@ -48,7 +49,7 @@ TEST(RequireClosed, names_the_lightest_repair)
     EXPECT_NE(refusal_of(soup_of(sphere)).find("--repair --out"), std::string::npos);
     EXPECT_NE(refusal_of(soup_of(sphere, 1e-4f)).find("--repair --weld 0.01 --out"), std::string::npos);
     SurfaceMesh strip = sheet_mesh();
-    EXPECT_NE(refusal_of(strip).find("do it in a modeller"), std::string::npos);
+    EXPECT_NE(refusal_of(strip).find("repair it in a modelling program"), std::string::npos);
 }
 
 TEST(RequireClosed, refuses_everything_else_that_has_no_volume)
@@ -58,7 +59,7 @@ TEST(RequireClosed, refuses_everything_else_that_has_no_volume)
     SurfaceMesh mesh = tetrahedron();
     turn_round(mesh);
     EXPECT_NE(
-        refusal_of(mesh).find("1 component is inside out (volume of the mesh -0.166667 m^3); mend it by"),
+        refusal_of(mesh).find("1 component is inside out (volume of the mesh -0.166667 m^3); repair it with"),
         std::string::npos);
     // Beside a larger one that is not, so that the volume of all is not negative.
     SurfaceMesh two = box_mesh({{2, 2, 2}, 2});
@@ -67,8 +68,9 @@ TEST(RequireClosed, refuses_everything_else_that_has_no_volume)
         two.triangles.push_back({first + t[0], first + t[1], first + t[2]});
     }
     for (const Vec3& x : mesh.vertices) two.vertices.push_back({x.x + 5, x.y, x.z});
-    EXPECT_NE(refusal_of(two).find("1 component is inside out (volume of the mesh 7.83333 m^3); mend it by"),
-              std::string::npos)
+    EXPECT_NE(
+        refusal_of(two).find("1 component is inside out (volume of the mesh 7.83333 m^3); repair it with"),
+        std::string::npos)
         << refusal_of(two);
     std::swap(mesh.triangles[2][0], mesh.triangles[2][1]);
     EXPECT_NE(
@@ -76,7 +78,7 @@ TEST(RequireClosed, refuses_everything_else_that_has_no_volume)
         std::string::npos);
     mesh = tetrahedron();
     mesh.vertices.push_back({5, 5, 5});
-    EXPECT_NE(refusal_of(mesh).find("1 vertex belongs to no triangle; mend it by"), std::string::npos);
+    EXPECT_NE(refusal_of(mesh).find("1 vertex belongs to no triangle; repair it with"), std::string::npos);
     mesh = box_mesh({{1, 1, 1}, 2});
     for (Vec3& v : mesh.vertices) v.z *= 1e-7f;
     EXPECT_NE(refusal_of(mesh).find("encloses no volume"), std::string::npos);
@@ -95,7 +97,7 @@ TEST(RequireClosed, refuses_everything_else_that_has_no_volume)
     mesh.vertices.push_back(mesh.vertices[3]);  // an edge of no length: 3-4
     mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 4}, {0, 3, 4}, {3, 2, 4}};
     ASSERT_TRUE(inspect_mesh(mesh).closed);
-    EXPECT_NE(refusal_of(mesh).find("it has an edge without length; mend it by"), std::string::npos);
+    EXPECT_NE(refusal_of(mesh).find("it has an edge without length; repair it with"), std::string::npos);
 }
 
 // ---- the files of bad_meshes.py

@@ -1,5 +1,5 @@
-// The methods constraint and acad with the solver newton_multigrid, as physics: lengths, periods, forces,
-// momentum, friction, and what must hold whatever the parameters are.
+// The physics of the methods constraint and acad with the solver newton_multigrid: lengths, periods, forces,
+// momentum, friction, and properties that hold for all parameters.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -76,7 +76,7 @@ TEST(Constraint, PendulumKeepsItsLengthToTheCompliance)
     // carry 3 m g between them at most, so that each is longer by at most 1.5 m g times the compliance.
     Scene scene = strip(2, 1.0, 2.0);
     test::converge(scene);
-    // A force that is remembered is a step behind.
+    // A remembered force lags by one step.
     scene.newton_multigrid.enforcement = Enforcement::penalty;
     scene.cloth_handle(0).pin(std::uint32_t{0}).pin(std::uint32_t{1});
     const double compliance = 1e-5, swinging = 1.0;  // kg: the other half of the mass is pinned
@@ -157,7 +157,7 @@ TEST(Constraint, MultipliersOfAHangingStripAreTheWeightBelow)
         for (int frame = 0; frame < 120; ++frame) simulation.advance(1 / 60.0);
         const auto multipliers = simulation.multipliers();
         for (std::uint32_t row = 0; row < rows; ++row) {
-            // Of a node's two links along the strip the upper one carries more: all nodes from its lower end
+            // Of a node's two links along the strip the upper one bears more: all nodes from its lower end
             // on.
             const std::uint32_t below = row == 0 ? rows - 1 : rows - row;
             const double weight = below * mass_of(scene, 1) * g;
@@ -186,7 +186,7 @@ TEST(Constraint, HangingChainTakesTheCatenary)
         Simulation simulation(scene, test::on(Backend::reference));
         for (int frame = 0; frame < 600; ++frame) simulation.advance(1 / 60.0);
         const auto x = simulation.positions();
-        EXPECT_NEAR(x[2 * (rows - 1)].z - x[0].z, 1.0, 1e-6);  // the pin has moved to where it was sent
+        EXPECT_NEAR(x[2 * (rows - 1)].z - x[0].z, 1.0, 1e-6);  // the pin has reached its target
         test::Smallest lowest;
         for (const Vec3& p : x) lowest.add(double{p.y});
         error[k] = std::abs(-lowest.value() - 0.292344);
@@ -202,11 +202,10 @@ TEST(Constraint, MomentumGrowsByTheWeightAlone)
     scene.cloth_handle(0)->damping = 0;
     scene.cloth_handle(0)->springs.structural.compliance = scene.cloth_handle(0)->springs.shear.compliance =
         1e-4;
-    scene.newton_multigrid.resists =
-        Resists::both;  // steps of slack threads are hardly ever solved to the end
+    scene.newton_multigrid.resists = Resists::both;  // steps of slack threads are rarely solved completely
     test::converge(scene);
     Simulation simulation(scene, test::on(Backend::reference));
-    // Every node its own way, so that constraints work against each other.
+    // Every node moves differently, so that constraints conflict.
     State state = simulation.state();
     std::mt19937 engine(4);
     std::uniform_real_distribution<float> unit(-0.3f, 0.3f);
@@ -227,12 +226,12 @@ TEST(Constraint, MomentumGrowsByTheWeightAlone)
     for (int frame = 0; frame < 12; ++frame) simulation.advance(1 / 60.0);
     const Moments after = moments(simulation.velocities());
     EXPECT_LE(simulation.report().solver.residual_max, 1e-6);
-    // What a step leaves unsolved, r . A^-1 r <= 1e-12 of the load m g^2 dt^2, can push the sheet as a whole,
-    // which feels nothing but inertia, by 1e-6 g dt at most: 2e-6 m/s in these 12 frames. The test of the
-    // solver looks at its last step, and not at what is left: hence twice that.
+    // The residual of a step, r . A^-1 r <= 1e-12 of the load m g^2 dt^2, can push the sheet as a whole,
+    // which only inertia resists, by at most 1e-6 g dt: 2e-6 m/s in these 12 frames. The solver tests its
+    // last step, not the remaining residual: hence twice that.
     EXPECT_LE(test::distance(after.mean, before.mean + Vec3d{0, -g * 12 / 60, 0}), 4e-6);
     EXPECT_GT(simulation.report().solver.active_max, 50U);
-    EXPECT_LT(after.spread, 0.5 * before.spread);  // they have had to do with each other
+    EXPECT_LT(after.spread, 0.5 * before.spread);  // the nodes have interacted
 }
 
 TEST(Constraint, WhatCannotBeSatisfiedEndsInTheLeastStretch)
@@ -252,8 +251,8 @@ TEST(Constraint, WhatCannotBeSatisfiedEndsInTheLeastStretch)
 
 TEST(Constraint, AResidualThatIsNoNumberIsNotForgotten)
 {
-    // A node so fast that the energy of its springs is beyond all floats in the first of two steps. It stays
-    // where it is then, and nothing but the residual tells.
+    // A node so fast that the energy of its springs exceeds the range of floats in the first of two steps. It
+    // then stays where it is, and only the residual shows it.
     Scene scene = hanging_sheet(5);
     scene.time.substeps = 2;
     Simulation simulation(scene, test::on(Backend::cpu));
@@ -302,8 +301,8 @@ TEST(Constraint, ThreadsAndRunsGiveTheSameBits)
 
 TEST(Constraint, BackendsHaveEqualBits)
 {
-    // With the default settings, which leave steps as unsolved as real time allows: what rounding leaves
-    // there would grow to 1e-2 of the sheet in ten frames (docs/physics.md).
+    // With the default settings, whose steps are solved only as far as real time allows: differences by
+    // rounding would grow to 1e-2 of the sheet in ten frames (docs/physics.md).
     expect_equal_bits_on_cpu_and_vulkan(hanging_sheet(18), 10);
 }
 
@@ -366,7 +365,7 @@ TEST(Constraint, FrictionHoldsBelowItsAngleAndLetsGoAboveIt)
 
 TEST(Constraint, SlackSpringsHoldNoEnergy)
 {
-    // Half as wide as it is at rest: no constraint exerts a force there, and no spring is left.
+    // Half as wide as at rest: no constraint exerts a force there, and springs are off.
     Scene scene;
     scene.method = Method::constraint;
     scene.gravity = {};
@@ -408,7 +407,7 @@ TEST(Constraint, StaysFiniteAcrossTheGrid)
                     for (int frame = 0; frame < static_cast<int>(rate); ++frame) simulation.advance(1 / rate);
                     EXPECT_TRUE(simulation.report().finite) << name_of(method) << ", " << rate << " steps/s, "
                                                             << stiffness << " N/m, " << mass << " kg";
-                    // What has begun to fall is elsewhere a second later.
+                    // A second later the sheet has moved.
                     EXPECT_GT(test::largest_difference(simulation.positions(), start), 0.01);
                 }
 }

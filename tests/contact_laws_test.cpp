@@ -216,18 +216,18 @@ TEST(Contact, LetsASunkNodeRise)
         next.position = now.position + next.velocity * dt;
         return D::contact_step(now, next, plane, 0.0, inverse_mass, dt);
     };
-    // From rest by 1000 m/s2, less gravity; that takes the place that the speed gives.
+    // Accelerates from rest by 1000 m/s2 less gravity, and moves at that speed.
     const D::Motion first = stepped(-0.5, 0);
     EXPECT_NEAR(first.velocity.y, (1000 - g) * dt, 1e-12);
     EXPECT_NEAR(first.position.y, -0.5 + first.velocity.y * dt, 1e-12);
     // Up to 1 m/s, and 8 times a second the depth.
     EXPECT_NEAR(stepped(-0.5, 1).velocity.y, 1, 1e-12);
     EXPECT_NEAR(stepped(-0.01, 0.08).velocity.y, 0.08, 8 * 0.08 * dt);
-    EXPECT_NEAR(stepped(-0.5, 3).velocity.y, 3 - g * dt, 1e-12);  // what is faster stays so
+    EXPECT_NEAR(stepped(-0.5, 3).velocity.y, 3 - g * dt, 1e-12);  // a faster node keeps its speed
     EXPECT_NEAR(stepped(-0.5, -3).velocity.y, 0, 1e-12);          // nothing sinks deeper
     EXPECT_EQ(stepped(-0.5, 0, 0).velocity.y, -g * dt);           // a pin
-    // What contact leaves, a millimetre at most, is put on the surface as ever, and so is what has come from
-    // outside.
+    // Depths that contact leaves, up to a millimetre, are projected onto the surface as usual, and so is a
+    // node that came from outside.
     EXPECT_NEAR(stepped(-0.0009, 0).position.y, 0, 1e-12);
     EXPECT_NEAR(stepped(-0.0009, 0).velocity.y, 0, 1e-12);
     EXPECT_NEAR(stepped(0.001, -30).position.y, 0, 1e-12);
@@ -243,7 +243,7 @@ TEST(Contact, LetsASunkNodeRise)
 
 TEST(Contact, PaperResponseIsAlgorithm4AsPrinted)
 {
-    // 3 m/s of sliding with 1 m/s outward becomes |n + v / |v||: no units of velocity (see errata).
+    // 3 m/s of sliding with 1 m/s outward becomes |n + v / |v||, which is not a velocity (see errata).
     D::Collider sphere{};
     sphere.kind = 0;
     sphere.radius = 1;

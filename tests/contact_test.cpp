@@ -1,5 +1,5 @@
 // Contact and friction of the implicit step, in steps of 1/60 s: a cloth that begins near a surface comes to
-// lie on it, and one that slides goes as far as a block does.
+// rest on it, and a sliding one stops where a block would.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -56,7 +56,7 @@ TEST_P(Contact, LetsASheetDownThatStartsAGapAboveAPlane)
             for (int k = 0; k < 60; ++k) simulation.advance(frame);
             test::Largest off;
             for (const Vec3& x : simulation.positions()) off.add(std::abs(double{x.y} - thickness));
-            // Of the 2.7 mm that gravity moves a node in a step, a tenth is what a step may leave open.
+            // Gravity moves a node by 2.7 mm per step; a tenth of that is within the step's tolerance.
             EXPECT_LE(off.value(), 0.1 * g * frame * frame) << nodes << " nodes, " << gap << " m above";
             EXPECT_LE(simulation.report().solver.residual_max, 1) << nodes << " nodes, " << gap << " m above";
         }
@@ -64,8 +64,8 @@ TEST_P(Contact, LetsASheetDownThatStartsAGapAboveAPlane)
 
 TEST_P(Contact, StopsASlidingSheetWhereABlockStops)
 {
-    // s = v^2 / (2 mu g). By implicit steps, half a step's way v dt / 2 more at most; and 1 % for what steps
-    // leave open.
+    // s = v^2 / (2 mu g). Implicit steps add at most half a step's displacement, v dt / 2; and 1 % for the
+    // tolerance of steps.
     constexpr double speed = 2, friction = 0.3;
     Scene scene = sheet_above(Plane{.friction = friction}, 8, 0.3);
     scene.cloth_handle(0)->position = {0, scene.cloth(0).thickness, 0};
@@ -80,8 +80,8 @@ TEST_P(Contact, StopsASlidingSheetWhereABlockStops)
 
 TEST_P(Contact, TakesAlongASheetOnATurntable)
 {
-    // 90 degrees a second for two seconds, and the sheet lies 10 cm from the middle at most: mu g is 40 times
-    // what its way about the middle asks for.
+    // 90 degrees per second for two seconds, at most 10 cm from the middle: mu g is 40 times the centripetal
+    // acceleration.
     Scene scene = sheet_above(Box{.centre = {0, -0.1, 0},
                                   .size = {2, 0.2, 2},
                                   .friction = 1,
@@ -100,7 +100,7 @@ TEST_P(Contact, TakesAlongASheetOnATurntable)
     EXPECT_NEAR(turned, 90, 0.4 + 1.5);
 }
 
-// A sheet that has fallen lies at its thickness within a second, and its steps are solved at once.
+// A fallen sheet lies at its thickness within a second; from then on its steps are solved at once.
 TEST_P(Contact, LeavesASheetThatHasFallenAtRest)
 {
     const bool slow = GetParam() == Backend::vulkan;
@@ -119,8 +119,8 @@ TEST_P(Contact, LeavesASheetThatHasFallenAtRest)
     EXPECT_LE(off.value(), 1e-5);  // m
 }
 
-// A strip over half a cylinder holds against T_1 / T_2 up to e^(mu pi) = 4.8 at mu = 0.5 (Euler and
-// Eytelwein). Hanging down by 0.3 m on one side, it holds 1.2 m on the other, and does not hold 1.65 m.
+// A strip over half a cylinder sticks up to T_1 / T_2 = e^(mu pi) = 4.8 at mu = 0.5 (Euler and Eytelwein).
+// With 0.3 m hanging on one side it holds 1.2 m on the other, but not 1.65 m.
 TEST_P(Contact, OfAStripAroundACylinderHoldsAsACapstanDoes)
 {
     if (GetParam() != Backend::cpu) GTEST_SKIP() << "seconds of 300 nodes: on cpu alone";

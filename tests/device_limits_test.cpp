@@ -1,5 +1,5 @@
-// What shaders ask of a device: that layouts have it, that no layout has more than phones can bind, and that
-// a device that cannot do it is refused by name.
+// Requirements of shaders: layouts provide them, no layout exceeds the limits of phones, and a device that
+// does not meet them is refused with the limit's name.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -64,7 +64,7 @@ TEST(Layouts, HaveEveryBufferThatTheirShadersUse)
         EXPECT_FALSE(shader.needs.storage_buffers.empty()) << shader.name;
         seen.insert(shader.needs.storage_buffers.begin(), shader.needs.storage_buffers.end());
     }
-    EXPECT_EQ(seen.size(), 28u);  // all of them are somebody's
+    EXPECT_EQ(seen.size(), 28u);  // every binding is used
 }
 
 TEST(Layouts, HaveNothingThatNoShaderOfTheirsUses)
@@ -135,7 +135,7 @@ TEST(ShaderNeeds, AreThoseOfTheText)
     EXPECT_EQ(steps.shared_memory, 7u * (8 + 8) * (16 + 8) * 4);
 }
 
-/// What passes need, and not a bit more.
+/// The exact limits that the passes need.
 vk::PhysicalDeviceLimits tight_limits()
 {
     vk::PhysicalDeviceLimits limits;

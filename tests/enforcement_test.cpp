@@ -1,5 +1,4 @@
-// Limits that remember their forces: a cloth of constraints falls as it does when its steps are solved to the
-// end.
+// Limits with memory: a cloth of constraints falls as it does when its steps are solved completely.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +14,7 @@ struct Fall {
     double lowest_15 = 0, lowest_30 = 0, longest = 0;  // m, m, stretch
 };
 
-/// A cloth of 1 m that is let go from the horizontal, held at two nodes.
+/// A cloth of 1 m, pinned at two nodes and released from the horizontal.
 Fall fall_of(const Cloth& cloth, const NewtonMultigridOptions& options)
 {
     Scene scene;
@@ -37,7 +36,7 @@ Fall fall_of(const Cloth& cloth, const NewtonMultigridOptions& options)
     return fall;
 }
 
-/// Where its lowest node is at frame 30 when steps are solved to the end, m.
+/// The height of its lowest node at frame 30 with completely solved steps, m.
 double expect_the_converged_motion(const Cloth& cloth)
 {
     NewtonMultigridOptions converged;
@@ -67,14 +66,14 @@ TEST(Enforcement, ADiscFallsAsItDoesWhenSolvedToTheEnd)
     disc.damping = 0;
     disc.pin(std::uint32_t{433}).pin(std::uint32_t{397 + 54});
     const double lowest = expect_the_converged_motion(disc);
-    // By a penalty Newton's method does not arrive there; else the bars above say nothing.
+    // With a penalty Newton's method must miss these bars; otherwise they would prove nothing.
     NewtonMultigridOptions penalty;
     penalty.enforcement = Enforcement::penalty;
     EXPECT_GT(std::abs(fall_of(disc, penalty).lowest_30 - lowest), 0.02);
 }
 
-// A node at the hem of a disc has three or four springs, all in one plane. By one damped step of block Jacobi
-// it may fall out of that by 0.7 g dt^2 = 1.9 mm, which stretches springs of 7 mm by 3.5 %.
+// A node at the hem of a disc has three or four springs, all in one plane. One damped step of block Jacobi
+// may move it out of that plane by 0.7 g dt^2 = 1.9 mm, which stretches springs of 7 mm by 3.5 %.
 TEST(Enforcement, NoNodeOfAFineMeshStandsOutOfIt)
 {
     constexpr std::uint32_t rings = 73, hem = 1 + 3 * rings * (rings - 1);

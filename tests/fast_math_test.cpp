@@ -1,5 +1,4 @@
-// SimulationOptions::fast_math: a step is as good as the plain one, to rounding, and the plain one stays as
-// it is.
+// SimulationOptions::fast_math: a step equals the exact one up to rounding, and exact steps are not affected.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -62,10 +61,10 @@ std::vector<double> force_scales(const ClothModel& model)
     return scales;
 }
 
-/// An inverse length of the portable law is off by at most 1.8e-7 of itself, one of a machine by 4e-7 (an
-/// estimate to 1.5 x 2^-12, one Newton step and its three roundings; Vulkan allows 2 units in the last
-/// place). It is in the length, and twice in the direction; eight more operations of a spring and the sums of
-/// up to 24 of them are rounded in both.
+/// The relative error of an inverse length is at most 1.8e-7 for the portable law, and 4e-7 for the machine's
+/// (an estimate to 1.5 x 2^-12, one Newton step and its three roundings; Vulkan allows 2 units in the last
+/// place). It enters the length once and the direction twice; eight more operations of a spring and the sums
+/// of up to 24 springs are rounded in both.
 constexpr double force_tolerance = 3 * (1.8e-7 + 4e-7) + 2 * (8 + 24) * rounding;
 
 void expect_near(const ClothModel& model, const State& plain, const State& fast, const std::string& who)
@@ -168,7 +167,7 @@ TEST(FastMathAlone, GivesNodesAtOnePlaceNoDirection)
     if (cpu::available_kernels().size() > 1) machines.push_back(options);
     for (const SimulationOptions& machine : machines) {
         const State state = state_after_a_step(model, machine);
-        for (std::size_t k = 0; k < state.at(Resource::velocity).size(); ++k)  // it falls, and does no more
+        for (std::size_t k = 0; k < state.at(Resource::velocity).size(); ++k)  // the sheet only falls freely
             EXPECT_FLOAT_EQ(state.at(Resource::velocity)[k],
                             k % 3 == 1 ? static_cast<float>(-9.81 * dt) : 0.0f);
     }

@@ -1,4 +1,4 @@
-// What a hand does to a node, and states that are taken and put back.
+// The effect of a hand on a node, and saving and restoring states.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ using test::on;
 
 const Backend all_backends[] = {Backend::cpu, Backend::vulkan, Backend::reference};
 
-/// Four nodes that nothing joins, each of 0.02 kg.
+/// Four unconnected nodes of 0.02 kg each.
 Scene loose_nodes()
 {
     Scene scene;
@@ -66,12 +66,12 @@ TEST(Grab, AtRestTheSpringCarriesTheNode)
     simulation.grab(0, 1, {0.5, 0.4, -0.5}, k, 1.0);
     simulation.advance(5);  // e-fold of the damping: 2 m / c = 0.04 s
     EXPECT_NEAR(double{simulation.positions()[1].y}, 0.4 - m * g / k, 1e-6);
-    // Let go, it falls as any node: by g dt a step, and by nothing else.
+    // After release it falls freely, by g dt per step.
     const double before = double{simulation.velocities()[1].y};
     simulation.release();
     simulation.advance(1.0 / 60);
     EXPECT_NEAR(double{simulation.velocities()[1].y}, before - g / 60, 1e-6);
-    // Nothing else moves, so that this is the node's own, of its own mass.
+    // Nothing else moves, so this is the node's own motion, with its own mass.
     const double speed = double{simulation.velocities()[1].y};
     EXPECT_NEAR(simulation.report().measures.kinetic_energy, 0.5 * m * speed * speed,
                 1e-6 * m * speed * speed);
@@ -91,8 +91,8 @@ TEST(Grab, AirTakesNothingOfThePull)
         Simulation simulation(scene, on(Backend::cpu));
         simulation.grab(0, 1, {0.5, 0.4, -0.5}, k, 1.0);
         for (int frame = 0; frame < 300; ++frame) simulation.advance(1.0 / 60);
-        // What is still falls by g dt and is drawn up by as much, each step; 1e-5 m: the spacing of floats
-        // at 0.4 m and the settling of 5 s at 5 1/s.
+        // In each step a node at rest falls by g dt and is pulled up by as much; 1e-5 m: the spacing of
+        // floats at 0.4 m and the settling of 5 s at 5 1/s.
         EXPECT_NEAR(double{simulation.positions()[1].y}, 0.4 - m * g / k, 1e-5) << name_of(method);
     }
 }
@@ -106,7 +106,7 @@ TEST(Grab, APinnedNodeStays)
     EXPECT_EQ(simulation.positions()[3], before);
 }
 
-/// A sheet that nothing holds but the hand.
+/// A sheet that only the hand supports.
 Scene free_sheet(Method method)
 {
     Scene scene;
@@ -201,7 +201,7 @@ TEST(State, OfBodiesIsInTheOrderOfTheMesh)
     Simulation one(scene, on(Backend::cpu)), other(scene, on(Backend::cpu));
     for (int frame = 0; frame < 20; ++frame) one.advance(1 / scene.time.frame_rate);
     other.set_state(one.state());
-    // Positions against an origin and back: a rounding at 1 m.
+    // Conversion of positions to another origin and back: one rounding at 1 m.
     EXPECT_LE(test::largest_difference(one.positions(), other.positions()), 1.2e-7);
 }
 

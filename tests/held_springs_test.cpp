@@ -1,5 +1,5 @@
-// Which springs a constraint holds: against a hanging strip whose tensions are known, and on all backends
-// alike.
+// Springs held by constraints: compared with a hanging strip whose tensions are known, and between all
+// backends.
 #include <gtest/gtest.h>
 
 #include <numeric>
@@ -13,9 +13,9 @@ namespace {
 constexpr std::uint32_t rows = 11, columns = 2;
 constexpr double threshold = 0.02, edge = 0.1;  // m
 
-/// A strip of 1 kg that hangs by its first row. Under row r hang 10 - r nodes of each column, so that its
-/// vertical springs carry T_r = (10 - r) g / 22; without a constraint they are longer by T_r / k. With this k
-/// the threshold lies between T_4 and T_5.
+/// A strip of 1 kg that hangs from its first row. Below row r hang 10 - r nodes of each column, so its
+/// vertical springs bear T_r = (10 - r) g / 22; without a constraint they are longer by T_r / k. With this k
+/// the threshold is between T_4 and T_5.
 Scene hanging_strip(Method method, Solver solver)
 {
     Scene scene;

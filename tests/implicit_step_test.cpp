@@ -1,5 +1,5 @@
-// The implicit step of the method constraint, beside constraint_test.cpp: air, surfaces that move, what a
-// report says of a solve, and how many cycles it takes.
+// The implicit step of the method constraint, in addition to constraint_test.cpp: air, moving surfaces, the
+// report of a solve, and the number of V-cycles.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ TEST(ImplicitStep, AirTakesAsMuchAsOfAnExplicitStep)
     scene.gravity = {};
     scene.cloth_handle(0)->damping = 2;  // 1/s
     scene.cloth_handle(0)->velocity = {1, 0, 0};
-    scene.newton_multigrid.newton_tolerance = 1e-6;  // what a step leaves is left in the velocity
+    scene.newton_multigrid.newton_tolerance = 1e-6;  // the residual of a step remains in the velocity
     scene.newton_multigrid.linear_tolerance = 1e-4;
     for (const Backend backend : {Backend::reference, Backend::cpu}) {
         Simulation simulation(scene, test::on(backend));
@@ -65,8 +65,8 @@ TEST(ImplicitStep, FrictionTakesAClothAlongWithASurfaceThatMoves)
 
 TEST(ImplicitStep, APlateThatRisesIsWhereItIsAtTheEndOfEachStep)
 {
-    // By 1 mm in a step: where it was before would be 1 mm off. A node stands m g / k = 0.8 um deep in it,
-    // and the first step is not wholly solved.
+    // By 1 mm per step: the previous position would be off by 1 mm. A node penetrates by m g / k = 0.8 um,
+    // and the first step is not solved completely.
     const Scene scene = sheet_on({{0, {0, 0, 0}, {}}, {2, {0, 0.12, 0}, {}}});
     for (const Backend backend : {Backend::reference, Backend::cpu}) {
         Simulation simulation(scene, test::on(backend));
@@ -161,12 +161,13 @@ TEST(ImplicitStep, TheLargestResidualIsThatOfAllSteps)
             ASSERT_EQ(by_frame.report().solver.residual_max, largest) << name_of(backend) << ", frame " << k;
         }
         ASSERT_EQ(by_step.state_hash(), by_frame.state_hash());
-        EXPECT_NE(by_step.report().solver.residual_last, largest);  // or the above says nothing
+        EXPECT_NE(by_step.report().solver.residual_last, largest);  // otherwise the test above would prove
+                                                                    // nothing
     }
 }
 
-/// What a sheet that is let go 10 % too long loses in 1/60 s, in as many steps as this, against the kinetic
-/// energy that its springs have given it by then.
+/// The loss of a sheet that is released 10 % too long, over 1/60 s in `steps` steps, relative to the kinetic
+/// energy gained from its springs by then.
 double lost_share(std::uint32_t steps)
 {
     Scene scene = hanging_sheet(6, 1e-2);
@@ -192,8 +193,8 @@ double lost_share(std::uint32_t steps)
 
 TEST(ImplicitStep, LosesNoEnergyByNotConvergingWhereItConverges)
 {
-    // What a converged step does lose is that of implicit Euler, of first order in its length: half the step,
-    // half the loss, but for the second order.
+    // A converged step loses what implicit Euler loses, first order in its length: half the step, half the
+    // loss, up to second order.
     const double coarse = lost_share(32), fine = lost_share(64);
     EXPECT_GT(fine, 0);
     EXPECT_LT(fine, 0.1);

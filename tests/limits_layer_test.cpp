@@ -1,5 +1,5 @@
-// The layer that reports other devices' limits (tests/limits_layer): whatever goes beyond what it reports is
-// said or refused, and nothing is said of what does not. Without this the tests under it could not fail.
+// The layer that reports other devices' limits (tests/limits_layer): whatever exceeds a reported limit is
+// reported or refused, and nothing else. Without this test the tests that use the layer could not fail.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -1,11 +1,11 @@
-// The one program of all tests in C++, and one process of it for each file of them, so that what a file's
-// tests share (a Vulkan device, its pipelines) is made once:
+// The single program of all C++ tests, run as one process per test file, so that a file's tests share
+// resources (a Vulkan device, its pipelines):
 //
 //     pliant_tests FILE... [options of gtest]
 //
-// runs the tests that FILE.cpp has, or of all files when none is named; --gtest_filter may leave fewer. It
-// fails when no test is left, and leaves with 77 when all that were left have been skipped. Reasons for
-// skipping stand in lines of their own, which './dev test' gathers.
+// runs the tests of FILE.cpp, or all if no file is given; --gtest_filter may select fewer. It fails if no
+// test is selected, and exits with 77 if all selected tests were skipped. Reasons for skipping are printed on
+// separate lines, which './dev test' collects.
 #include <gtest/gtest.h>
 
 #include <cstdio>

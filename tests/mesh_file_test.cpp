@@ -75,9 +75,10 @@ TEST_F(MeshTest, files_that_cannot_be_read_or_written)
     EXPECT_EQ(message("read", "none.ply"), "there is no such file; check the path");
     EXPECT_EQ(message("read", "folder.ply"), "it is a folder; give the name of a mesh file");
     EXPECT_EQ(message("read", "cube.3ds"),
-              "its ending is '.3ds', but meshes end in .ply, .obj, .stl, .off, .gltf or .glb");
-    EXPECT_EQ(message("write", "cube.stl"), "its ending is '.stl', but meshes are written as .ply or .obj");
-    EXPECT_EQ(message("write", "cube"), "it has no ending, but meshes are written as .ply or .obj");
+              "its extension is '.3ds', but meshes end in .ply, .obj, .stl, .off, .gltf or .glb");
+    EXPECT_EQ(message("write", "cube.stl"),
+              "its extension is '.stl', but meshes are written as .ply or .obj");
+    EXPECT_EQ(message("write", "cube"), "it has no extension, but meshes are written as .ply or .obj");
     EXPECT_EQ(message("write", "folder.ply"), "it is a folder; give the name of a file");
     EXPECT_EQ(message("write", "none/cube.ply"),
               "there is no folder '" + (folder / "none").string() + "'; create it first");
@@ -126,7 +127,7 @@ TEST_F(MeshTest, atomic_file_appears_complete_or_not_at_all)
                   file.commit();
               }),
               "cannot write '" + target.string() +
-                  "': not everything could be written; check the free space of the disk");
+                  "': it could not be written completely; check the free space of the disk");
     EXPECT_EQ(contents(), "new");
     fs::create_symlink("table.csv", folder / "link.csv");
     {
@@ -143,7 +144,7 @@ TEST_F(MeshTest, atomic_file_never_replaces_a_device)
 {
     if (!fs::is_character_file("/dev/null")) GTEST_SKIP() << "this system has no /dev/null";
     EXPECT_EQ(failure_of([] { AtomicFile file("/dev/null"); }),
-              "cannot write '/dev/null': it exists and is no plain file; give another name");
+              "cannot write '/dev/null': it exists and is not a regular file; give another name");
 }
 
 }  // namespace

@@ -111,7 +111,7 @@ TEST_F(MeshTest, other_formats_say_what_is_wrong)
     EXPECT_EQ(read_failure("a.off", index),
               "a.off, line 10: face 3 uses vertex '9', but there are 4 vertices; correct the index");
     EXPECT_EQ(read_failure("a.off", "OFF\n1 many 0\n"),
-              "a.off, line 2: 'many' stands where a count of vertices, faces or edges must");
+              "a.off, line 2: 'many' is not a count of vertices, faces or edges");
     EXPECT_NE(read_failure("a.off", "OFF\n1 0 0\n0 0 nan\n").find("vertex 0 has 'nan'"), std::string::npos);
 
     const std::string glb = test::glb_of(tetrahedron());

@@ -1,4 +1,4 @@
-// The constraint solver on meshes: what its levels are made of, and that it solves what it should.
+// The constraint solver on meshes: the contents of its levels, and its solutions.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -205,7 +205,7 @@ TEST(MeshHierarchy, CyclesDoNotGrowWithTheMesh)
 {
     for (const std::uint32_t n : {25u, 50u, 100u})
         for (const double compliance : {1e-7, 1e-6, 1e-4}) {
-            // One Newton iteration leaves wrinkles, which make the later systems harder.
+            // One Newton iteration leaves wrinkles, which make later systems harder.
             test::expect_few_cycles(
                 hanging(irregular_square(n), compliance), {25, 25, 40},
                 (testing::Message() << n << " x " << n << " nodes, compliance " << compliance).GetString());
@@ -280,9 +280,9 @@ Scene hung_shirt(std::uint32_t squares)
     return scene;
 }
 
-// What falls for half a second is where steps that are solved to the end have it, to the root of the mean
-// square. At these sizes that is no chance: moved by 1e-6 m, nodes of a solved run part by 0.01 cm. With all
-// of its stiffness along slack springs in Newton's matrix the disc is 4 cm off, and the T-shirt 8.
+// After half a second, positions match those of completely solved steps in root mean square. At these sizes
+// this is not chaotic: moved by 1e-6 m, nodes of a solved run differ by 0.01 cm. If slack springs kept all
+// their stiffness in Newton's matrix, the disc would be off by 4 cm, the T-shirt by 8 cm.
 TEST(MeshHierarchy, FallsAsStepsThatAreSolvedToTheEnd)
 {
     const struct {

@@ -199,7 +199,7 @@ TEST_F(MeshTest, obj_failures_say_what_is_wrong_and_where)
         {vertices + "f 1 2 4294967299\n",
          "bad.obj, line 4: the face uses vertex 4294967299, more than any mesh can have; correct the index"},
         {vertices + "f -1 -2 -4\n",
-         "bad.obj, line 4: the face uses vertex -4, but only 3 vertices stand before it; correct the index"},
+         "bad.obj, line 4: the face uses vertex -4, but only 3 vertices precede it; correct the index"},
         {vertices + "f 1 2 3/x\n",
          "bad.obj, line 4: the corner '3/x' of the face is not of the form v, v/vt, v//vn or v/vt/vn"},
     };
@@ -269,8 +269,7 @@ TEST_F(MeshTest, long_polygons_take_no_quadratic_time)
     corners.emplace_back(500, 1000);
     EXPECT_EQ(read_failure("comb.obj", polygon_obj(corners)),
               "comb.obj, line 1003: the face has 1002 corners and is not convex; triangulate the mesh "
-              "before, "
-              "above 1000 corners it is not done here");
+              "first: the limit is 1000 corners");
     corners.clear();
     for (int i = 0; i < 5000; ++i)
         corners.emplace_back(1000 * std::cos(2 * std::numbers::pi * i / 5000),

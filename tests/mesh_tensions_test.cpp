@@ -1,4 +1,4 @@
-// What limits of a mesh remember over 10,000 steps: docs/physics.md, "Constraints".
+// The memory of a mesh's limits over 10,000 steps: docs/physics.md, "Constraints".
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ Scene scene_of(Cloth cloth, double compliance)
     return scene;
 }
 
-/// N, of each thousand steps: the root of the mean square of multipliers at nodes, every tenth step.
+/// N, for each thousand steps: the root mean square of multipliers at nodes, every tenth step.
 std::vector<double> tensions_of(Simulation& simulation)
 {
     constexpr int thousands = 10, steps = 1000, every = 10;
@@ -49,7 +49,7 @@ std::vector<double> tensions_of(Simulation& simulation)
     return tensions;
 }
 
-/// From the third thousand steps on each thousand has the tension of all of them, to a part of it.
+/// From the third thousand on, each thousand steps have the overall mean tension, within `part`.
 void expect_settled(const std::vector<double>& tensions, double part)
 {
     constexpr std::size_t begun = 2;
@@ -61,10 +61,10 @@ void expect_settled(const std::vector<double>& tensions, double part)
         EXPECT_NEAR(tensions[k], mean, part * mean) << "steps " << k << ",000 to " << k + 1 << ",000";
 }
 
-// A drum: a disc held at its hem. All springs are taut, and there are more of them than numbers of free
-// nodes, so that forces can be added which are in balance by themselves. It comes to rest, and then they must
-// stay what they are: to a ten thousandth, as the springs' lengths are differences of floats (6e-8 m of 0.5
-// m) whose rounding is 6e-5 of a stretch of 8e-5 and of a mean over thousands of them nothing is left.
+// A drum: a disc pinned at its hem. All springs are taut, and they outnumber the degrees of freedom, so there
+// are self-stresses. After it has come to rest they must not change by more than 1e-4: lengths are
+// differences of floats (6e-8 m of 0.5 m), whose rounding is 6e-5 of a strain of 8e-5, and averages out over
+// thousands of springs.
 TEST(MeshTensions, OfADrumStay)
 {
     Cloth cloth = disc();
@@ -78,9 +78,9 @@ TEST(MeshTensions, OfADrumStay)
     EXPECT_LT(simulation.report().measures.max_speed, 1e-4);
 }
 
-// What hangs from one node or two and does not come to rest: waves of some 0.2 m/s go on in it. The means of
-// a thousand steps scatter by 2 to 4 % (the drum's way of running away would be a part of the tension in each
-// step; 1e-4 of it would make it 2.5 times as large by the end).
+// Cloths that hang from one or two nodes and do not come to rest: waves of about 0.2 m/s remain. Means over a
+// thousand steps scatter by 2 to 4 %. (A drum's drift would be proportional to the tension in each step; 1e-4
+// of it would give 2.5 times the tension by the end.)
 TEST(MeshTensions, OfWhatHangsDoNotRunAway)
 {
     Cloth hung = disc();

@@ -1,6 +1,6 @@
-// The implicit step against an oracle that shares nothing with it (oracle/implicit_step.hpp): forces,
-// energies, the diagonal and the couplings of the operator as they lie in the arena, its product with a
-// vector, and where a step ends. Small cloths, with all that a step may have to do with.
+// The implicit step compared with an independent oracle (oracle/implicit_step.hpp): forces, energies, the
+// operator's diagonal and couplings in the arena, its product with a vector, and the end of a step. Small
+// cloths with all features of a step.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,7 +27,7 @@ using oracle::SolverArena;
 using oracle::Vector;
 
 constexpr double dt = 1.0 / 120;           // s
-constexpr double rounding = 0x1p-24;       // of a float, of itself
+constexpr double rounding = 0x1p-24;       // relative, of a float
 constexpr double stiffest = 1e4;           // N/m, of springs and constraints
 constexpr double contact_stiffness = 2e4;  // N/m
 
@@ -72,7 +72,7 @@ const OracleCase cases[] = {
     {.name = "disc_quadratic", .disc = true, .quadratic = true, .contact = true},
 };
 
-/// `taut`: held along its border, of more nodes.
+/// `taut`: pinned along its border, with more nodes.
 Scene scene_of(const OracleCase& c, bool taut)
 {
     Cloth cloth = c.disc ? Cloth::disc({.radius = 0.5, .rings = 3, .density = 0.4})
@@ -119,7 +119,7 @@ Scene scene_of(const OracleCase& c, bool taut)
     return scene;
 }
 
-/// A cloth in some state, to the solver and to the oracle.
+/// A cloth in some state, for the solver and for the oracle.
 struct Bench {
     /// Every node is moved by up to `shake` m, after the cloth is stretched by `stretch`, and moves at up to
     /// `speed` m/s.
@@ -154,7 +154,7 @@ struct Bench {
             input.is_pinned.push_back(!(model.masses.inverse(node) > 0));
             input.destination.push_back(input.position.back());
         }
-        if (c.second_order) {  // a pin's way ends where it is, and its velocity says nothing
+        if (c.second_order) {  // a pin ends at its target, and its velocity has no meaning
             for (std::uint32_t vertex = 0; vertex < count; ++vertex) {
                 const Vec3d v = to_double(model.shape.velocities[model.shape.node(vertex)]);
                 way.push_back(oracle::point_of(to_double(to_float(v * dt + any(0.3 * speed * dt)))));
@@ -186,7 +186,7 @@ struct Bench {
         runner.run({++programs, std::move(calls), parity_after},
                    {dt, static_cast<std::uint32_t>(colliders.size()), colliders, true, attached});
     }
-    /// Writes it where the solver keeps it.
+    /// Writes the previous step to where the solver keeps it.
     void tell_the_step_before(PassRunner& runner) const
     {
         const SolverLevel& level = model.hierarchy.levels.front();
@@ -204,7 +204,7 @@ struct Bench {
                 if (k == 0) write(history_step, model.shape.node(vertex), dt);
             }
     }
-    /// The first look at a step.
+    /// The calls up to the first evaluation of a step.
     std::vector<Call> look() const
     {
         std::vector<Call> calls;
@@ -217,11 +217,11 @@ struct Bench {
     ClothModel model;
     std::vector<PlacedCollider> colliders;
     std::vector<std::vector<Vec3>> attached;
-    std::vector<Point> way, before;  ///< m, m/s, by vertex: of the step before, where there was one
+    std::vector<Point> way, before;  ///< m, m/s, by vertex: the previous step, if there was one
     std::optional<ImplicitStep> step;
 };
 
-/// One in which the oracle's differences cross no corner.
+/// A bench in which the oracle's differences cross no corner.
 Bench clear_bench(const OracleCase& c, double shake, double speed, double stretch = 0)
 {
     for (unsigned seed = 1;; ++seed) {
@@ -237,12 +237,12 @@ struct Machine {
     bool on_host = true, exact = false;
 };
 
-// Tolerances. The reference computes in double and is read in floats, each rounded by 2^-24 of itself; its
-// rest lengths on a mesh are floats, which is as much of the stiffest spring's force over its whole length, k
-// l. The oracle's differences leave 5e-10 of a force and 1e-9 of a stiffness, which is less. In float a
-// length of up to 0.3 m is a difference of places of up to 1 m: springs are off by their stiffness times four
-// roundings of 1 m, up to 12 of them at a node, and contact by as much of its own; directions, and what is
-// across them, by that over a length of 0.15 m.
+// Tolerances. The reference computes in double and is read as floats, with a relative rounding of 2^-24. A
+// mesh's rest lengths are floats, with as much rounding of the stiffest spring's force over its whole length,
+// k l. The oracle's differences have errors of 5e-10 of a force and 1e-9 of a stiffness, which is less. In
+// float a length of up to 0.3 m is a difference of positions of up to 1 m: springs are off by their stiffness
+// times four roundings of 1 m, up to 12 springs at a node, and contact by as much of its own; directions, and
+// stiffness across them, by that over a length of 0.15 m.
 double force_tolerance(const Machine& machine, double largest)
 {
     if (machine.exact) return 2 * rounding * (largest + stiffest * 0.3);
@@ -260,7 +260,7 @@ void expect_near(const Vector& found, const Vector& expected, double tolerance, 
         ASSERT_NEAR(found[k], expected[k], tolerance) << what << ": vertex " << k / 3 << ", number " << k % 3;
 }
 
-/// Block by block, each against its own size.
+/// Compares block by block, each relative to its own size.
 void expect_near(const Machine& machine, const Matrix& found, const Matrix& expected, const std::string& what)
 {
     ASSERT_EQ(found.rows(), expected.rows()) << what;
@@ -343,7 +343,7 @@ TEST_P(StepOracle, HasTheForcesTheEnergyAndTheOperator)
 
 TEST_P(StepOracle, HasTheProductOfTheOperator)
 {
-    // The first iteration of conjugate gradients without a preconditioner goes along p = r.
+    // The first iteration of conjugate gradients without a preconditioner has the direction p = r.
     const OracleCase c = the_case();
     Bench bench = clear_bench(c, 0.02, 1);
     bench.model.plan.newton.preconditioner = Preconditioner::none;
@@ -364,13 +364,14 @@ TEST_P(StepOracle, HasTheProductOfTheOperator)
     }
 }
 
-/// On Vulkan, which has the CPU's bits (solver_pass_test.cpp), steps that are solved to the end are too long.
+/// Not on Vulkan, which has the CPU's bits (solver_pass_test.cpp): completely solved steps take too long
+/// there.
 class StepEnd : public StepOracle {};
 
 TEST_P(StepEnd, IsWhereTheEnergyIsLeast)
 {
     const OracleCase c = the_case();
-    // Held along its border and stretched by 5 %, so that all springs pull and there is but one minimum.
+    // Pinned along its border and stretched by 5 %, so that all springs pull and there is only one minimum.
     Bench bench(c, 1, 0.002, 0.3, 0.05, true);
     NewtonMultigridOptions& options = bench.model.plan.newton;
     options.newton_iterations = 120;
@@ -381,7 +382,7 @@ TEST_P(StepEnd, IsWhereTheEnergyIsLeast)
     int steps = 0;
     Vector least = step.minimum(steps);
     ASSERT_LT(steps, 200) << "the oracle does not find it";
-    if (c.contact) {  // once more, with the normal forces that this has
+    if (c.contact) {  // once more, with the resulting normal forces
         oracle::StepInput renewed = step.input();
         renewed.pressed = step.pressed(least);
         const Vector before = least;
@@ -390,10 +391,10 @@ TEST_P(StepEnd, IsWhereTheEnergyIsLeast)
         EXPECT_GT((least - before).lpNorm<Eigen::Infinity>(), 1e-4) << "nothing to see";
     }
     EXPECT_GT((least - step.start()).lpNorm<Eigen::Infinity>(), 1e-4);
-    // A step ends when r . A^-1 r is under 1e-12 of the load, |y - dt v|^2 in the norm of inertia; no node is
-    // further off than all of that would move the lightest one. The velocity that is read is a float; and
-    // rest lengths on a mesh are, of up to 0.2 m. In float a node comes to lie where lengths and gaps are
-    // right that are off by up to four roundings of 1 m, and no residual of 1e-6 is ever seen.
+    // A step ends when r . A^-1 r is below 1e-12 of the load, |y - dt v|^2 in the norm of inertia; no node is
+    // further off than if the lightest one had all of that. The velocity read is a float, and so are a mesh's
+    // rest lengths of up to 0.2 m. In float a node ends where lengths and gaps with errors of up to four
+    // roundings of 1 m are satisfied, and a residual of 1e-6 is never reached.
     const double of_tolerance = 1e-6 * step.load_length();
     const double of_reading = rounding * least.lpNorm<Eigen::Infinity>();
     constexpr double of_rest_lengths = 0.2 * rounding, of_float = 4 * rounding;
@@ -419,7 +420,7 @@ TEST_P(StepEnd, IsWhereTheEnergyIsLeast)
         EXPECT_LE((found - least).lpNorm<Eigen::Infinity>(), bar) << machine.name;
         EXPECT_LE((place - start - least).lpNorm<Eigen::Infinity>(), bar + rounding) << machine.name;
         if (machine.exact) {
-            // What remembers may leave ten times as much where there is no collider.
+            // Limits with memory may leave ten times as much without colliders.
             const double residual = c.remembers && !c.contact ? 1e-5 : 1e-6;
             EXPECT_LE(machine.runner->solver_scalar(0, scalar_residual_last), residual) << machine.name;
         }
@@ -454,7 +455,7 @@ TEST(Oracle, HasTheExactHessianForNewtonsWhereEverySpringPulls)
                      newton = bench.step->newton_matrix(bench.step->start());
         EXPECT_GT(newton.cwiseAbs().maxCoeff(), 1e4) << c.name;
         EXPECT_LE((exact - newton).cwiseAbs().maxCoeff(), 1e-8 * stiffest) << c.name;
-        // And not where some are slack.
+        // But not if some springs are slack.
         const Bench crumpled(c, 1, 0.02, 0.1);
         EXPECT_GT((crumpled.step->hessian(crumpled.step->start(), 0x1p-13) -
                    crumpled.step->newton_matrix(crumpled.step->start()))

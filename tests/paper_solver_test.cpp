@@ -1,5 +1,5 @@
-// The cloth paper's solver: its linear system against a dense one, what conjugate gradients make of it where
-// it has full rank and where it has not, where the method holds and where it does not, and ACAD.
+// The cloth paper's solver: its linear system compared with a dense one, conjugate gradients with full rank
+// and without, the limits of the method, and ACAD.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ Cloth constraint_sheet(std::uint32_t rows, std::uint32_t columns, bool shear = t
     return cloth;
 }
 
-/// Springs that have nothing to do with each other: a triangle without area is one edge.
+/// Independent springs: a triangle without area is one edge.
 Cloth separate_springs(std::uint32_t count, double length)
 {
     SurfaceMesh mesh;
@@ -66,7 +66,7 @@ void shake(ClothModel& model, float by, float speed, unsigned seed)
     }
 }
 
-/// One cloth and its solver, a step at a time, and what is inside of it.
+/// One cloth and its solver, step by step, and its internal numbers.
 template <class T>
 struct Bench {
     Bench(const ClothModel& m, double step_length)
@@ -77,7 +77,7 @@ struct Bench {
           constants(make_solver_constants<T>(model, dt))
     {
     }
-    /// A step, or its beginning, until the first call of `last` is done.
+    /// Runs a step, or its beginning up to the first call of `last`.
     void step(Pass last = Pass::paper_end)
     {
         std::vector<Call> calls;
@@ -284,8 +284,8 @@ TEST(PaperConjugateGradients, ReachTheirToleranceOnStructuralSprings)
     }
 }
 
-// The numbers are in docs/physics.md. The residual that the recurrence has is that of the last multipliers,
-// and grows; the step uses the best ones.
+// The numbers are in docs/physics.md. The recurred residual is that of the last multipliers, and grows; the
+// step uses the best ones.
 TEST(PaperConjugateGradients, StallOrGrowWhereConstraintsDependOnEachOther)
 {
     const auto expect_stall = [](const Solved& s, double least, double most) {
@@ -402,7 +402,7 @@ struct Hung {
     test::Largest most, late_most;
 };
 
-/// One mass on one spring, which is 30 % too long where they balance.
+/// One mass on one spring, which is 30 % too long in equilibrium.
 Hung hang_mass(AcadTarget target)
 {
     Cloth cloth = separate_springs(1, 0.1);
@@ -438,7 +438,7 @@ TEST(PaperAcad, ChattersWhenItPullsToTheLengthAtRest)
 {
     const Hung hung = hang_mass(AcadTarget::rest);
     EXPECT_GT(hung.late_toggles, 50);
-    EXPECT_LT(hung.late_least.value(), -0.5);  // it is thrown past its anchor
+    EXPECT_LT(hung.late_least.value(), -0.5);  // it is thrown beyond its anchor
     EXPECT_GT(hung.late_most.value(), 0.2);
 }
 
@@ -450,7 +450,7 @@ TEST(PaperAcad, RestsAtTheThresholdWhenItPullsToThat)
     EXPECT_NEAR(hung.late_most.value(), 0.1, 1e-5);
 }
 
-// Constraints that push are dropped in the course of the solve; to ignore them afterwards makes this diverge.
+// Pushing constraints are dropped during the solve; dropping them afterwards would make this diverge.
 TEST(PaperAcad, HoldsASheetNearItsThreshold)
 {
     Cloth sheet = test::flat_sheet(17, 17);

@@ -1,5 +1,5 @@
-// What the table of passes says that a pass reads and writes, of which barriers are made: held against its
-// shader, buffer by buffer, and in the solver's arena, which is one buffer, against what the pass does there.
+// The reads and writes in the table of passes, from which barriers follow: compared with shaders, buffer by
+// buffer, and within the solver's arena, which is one buffer, with the effect of each pass.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -65,7 +65,7 @@ std::set<std::uint32_t> bindings_of(std::span<const Resource> resources)
 TEST(PassResources, AreTheBuffersOfTheShaders)
 {
     const auto number = [](Binding binding) { return static_cast<std::uint32_t>(binding); };
-    // What nobody writes: topology, and numbers of springs.
+    // Never written: topology, and data of springs.
     const std::set<std::uint32_t> constant = {
         number(Binding::springs),        number(Binding::spring_rest_class), number(Binding::neighbour_start),
         number(Binding::neighbours),     number(Binding::triangles),         number(Binding::triangle_start),
@@ -79,7 +79,7 @@ TEST(PassResources, AreTheBuffersOfTheShaders)
             const vulkan::ShaderNeeds needs = vulkan::needs_of(code);
             const std::set<std::uint32_t> reads = bindings_of(pass.reads), writes = bindings_of(pass.writes);
             for (const std::uint32_t binding : needs.written_buffers) {
-                // Where a pass leaves no sums, a loop over none of them is there all the same.
+                // A pass without sums still contains a loop over zero of them.
                 const bool no_sums = binding == number(Binding::solver_parts) && pass.sums.count == 0;
                 EXPECT_TRUE(no_sums || writes.count(binding) > 0)
                     << pass.name << " writes buffer " << binding;
@@ -88,7 +88,7 @@ TEST(PassResources, AreTheBuffersOfTheShaders)
                 EXPECT_TRUE(std::ranges::count(needs.written_buffers, binding) == 1)
                     << pass.name << " does not write buffer " << binding;
             for (const std::uint32_t binding : needs.read_buffers) {
-                // A pass of a solver looks at its guard.
+                // A pass of a solver reads its guard.
                 const bool guard =
                     is_solver_pass(static_cast<Pass>(p)) && binding == number(Binding::solver_scalars);
                 EXPECT_TRUE(guard || constant.count(binding) > 0 || reads.count(binding) > 0)
@@ -151,7 +151,7 @@ Scene scene_of(const ArenaCase& c)
     return scene;
 }
 
-/// What each number of a cloth's arena is of. `colliders` stands for what no pass may write.
+/// The resource of each number in a cloth's arena. `colliders` marks numbers that no pass may write.
 std::vector<Resource> resources_of_arena(const ClothModel& model)
 {
     const Hierarchy& hierarchy = model.hierarchy;
@@ -211,8 +211,8 @@ std::vector<Resource> resources_of_arena(const ClothModel& model)
 
 class ArenaResources : public testing::TestWithParam<ArenaCase> {};
 
-/// Each call of a frame runs twice: as it is, and with everything in the arena that it does not read made
-/// NaN. It has to leave the same, and nothing else than what it writes.
+/// Each call of a frame runs twice: as it is, and with all numbers of the arena that it does not read set to
+/// NaN. Both must give the same result, and write only what the table lists.
 TEST_P(ArenaResources, AreWhatPassesDo)
 {
     const Scene scene = scene_of(GetParam());
@@ -248,7 +248,7 @@ TEST_P(ArenaResources, AreWhatPassesDo)
         }
         if (call.guard != Guard::none && runner->solver_scalar(0, static_cast<std::size_t>(call.guard)) != 0)
             continue;
-        // Of each kind some: those that do the same again say nothing new.
+        // Some of each kind: repetitions prove nothing new.
         const std::string name = description_of(call.pass).name;
         if (++runs[call.pass] > 12) {
             run(call, false);
@@ -297,7 +297,7 @@ TEST_P(ArenaResources, AreWhatPassesDo)
     for (const auto& [pass, count] : runs) {
         const auto writes = description_of(pass).writes;
         const bool of_vectors = std::ranges::count(writes, Resource::vectors) > 0;
-        const bool always = pass != Pass::newton_move;  // which shortens steps that a collider stops
+        const bool always = pass != Pass::newton_move;  // it changes steps only where a collider stops them
         if (of_vectors && always && GetParam().solver != Solver::paper) {
             EXPECT_EQ(written[pass].count(Resource::vectors), 1u) << description_of(pass).name;
         }

@@ -1,5 +1,5 @@
-// Every pass of the table on every backend, on odd sizes: cpu (packs of 4, 8 and 16 lanes, 1, 2, 3
-// and 7 threads) and vulkan must agree bit by bit, and both must follow the double-precision reference to
+// Every pass of the table on every backend, with odd sizes: cpu (packs of 4, 8 and 16 lanes, 1, 2, 3 and 7
+// threads) and vulkan must agree bit by bit, and both must match the double-precision reference up to
 // rounding.
 #include <gtest/gtest.h>
 
@@ -88,7 +88,7 @@ Scene scene_of(const PassCase& c)
     return scene;
 }
 
-/// Everything a cloth's program computes, one step from the same state.
+/// The results of a cloth's program, one step from the same state.
 std::map<Resource, std::vector<float>> results_of(PassRunner& runner, const ClothModel& model,
                                                   std::span<const PlacedCollider> colliders,
                                                   std::uint32_t grabbed = 0)
@@ -137,7 +137,7 @@ TEST_P(PassParity, AllBackendsAgree)
         EXPECT_EQ(runner->validation_messages(), 0u);
     }
 
-    // The reference, to the rounding of some dozen operations; forces against the size of what cancels in
+    // The reference, up to the rounding of some dozen operations; forces relative to the terms that cancel in
     // them.
     const auto exact = results_of(*make_reference_runner({&model, 1}), model, colliders);
     const double force_scale =

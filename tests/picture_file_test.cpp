@@ -1,4 +1,4 @@
-// The files that pictures become, single, in sequences and in videos, and the errors on the way.
+// Picture files, sequences and videos, and their errors.
 #include <algorithm>
 #include <array>
 #include <cerrno>

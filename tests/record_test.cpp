@@ -1,4 +1,4 @@
-// What is kept of a run: statistics, the summary, checks, point caches and sequences of meshes.
+// The records of a run: statistics, the summary, checks, point caches and sequences of meshes.
 #include <gtest/gtest.h>
 
 #include <cstring>

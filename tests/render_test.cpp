@@ -1,4 +1,4 @@
-// Pictures: what is seen on them.
+// The content of pictures.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -108,7 +108,7 @@ protected:
         const std::vector<ClothFrame> frames{sheet.host()};
         return Renderer(device, scene, topologies).draw(time, frames);
     }
-    /// The same scene, light and camera with no cloth to be seen.
+    /// The same scene, light and camera without visible cloth.
     Image draw_without_cloth(const Scene& scene, Sheet sheet)
     {
         sheet.triangles.clear();
@@ -140,7 +140,7 @@ TEST_F(Picture, shows_the_cloth_where_its_nodes_are)
 
 TEST_F(Picture, has_up_above_and_right_at_the_right)
 {
-    // Without the matrix that all other tests find their pixels by.
+    // Without the projection matrix with which all other tests find their pixels.
     const Sheet sheet = make_sheet(9, 9, 0.5);
     const auto differences = [&](Vec3d moved) {
         Scene scene = scene_for(sheet, 0.5);
@@ -193,7 +193,8 @@ TEST_F(Picture, is_the_same_from_host_and_device_and_every_time)
 
 TEST_F(Picture, shows_nothing_of_the_picture_before)
 {
-    // A renderer draws again what cloths, colliders and their shadows touch now or did before, and no more.
+    // A renderer redraws what cloths, colliders and their shadows cover now or covered before, and nothing
+    // else.
     Sheet sheet = make_sheet(17, 17, 0.8);
     Scene scene = scene_for(sheet, 0.8);
     scene.camera.position = {0.5, 2.2, 3};
@@ -246,8 +247,8 @@ TEST_F(Picture, knows_what_it_touches)
 
 TEST_F(Picture, takes_uploads_while_others_are_on_their_way)
 {
-    // As many pictures as there are slots are prepared, and only then the first of them is drawn: a slot that
-    // was shared would show the last upload, and a wait would never end.
+    // Prepares as many pictures as there are slots before drawing the first: a shared slot would show the
+    // last upload, and a wait would never end.
     constexpr unsigned slots = 3;
     const vk::Extent2D size{160, 90};
     std::vector<Sheet> sheets;
@@ -305,8 +306,8 @@ double light(std::uint8_t value)
     return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
 }
 
-/// How far a picture is from the mean of one with `scale` times its edges, in the pixels where that has an
-/// edge: the root of the mean square, of 255.
+/// The root mean square difference, of 255, between a picture and the downsampled `large` one, `scale` times
+/// as large, over pixels where that has an edge.
 double error_at_edges(const Image& image, const Image& large, std::uint32_t scale)
 {
     double sum = 0;
@@ -451,9 +452,8 @@ TEST_F(Picture, has_a_checker_with_two_sides)
 
 TEST_F(Picture, shades_a_sheet_as_the_mesh_that_it_is)
 {
-    // At its four corners, each of which has one quadrant of a normal alone; a mesh has its normals from
-    // triangles. Its border is turned up, so that cells are flat and corners steeper than what is beside
-    // them.
+    // At its four corners, where a single quadrant gives the normal; a mesh's normals come from triangles.
+    // The border is bent up, so that cells are flat and corners steeper than their neighbours.
     Sheet sheet = make_sheet(5, 5, 0.5);
     for (Vec3& x : sheet.positions)
         x.y += (std::abs(x.x) > 0.4f ? 0.2f : 0.0f) + (std::abs(x.z) > 0.4f ? 0.2f : 0.0f);
@@ -548,7 +548,7 @@ TEST(ShapeMeshes, CornersOfATaperedCapsuleLieOnIt)
 
 TEST_F(Picture, covers_a_sphere_that_a_coarse_cloth_lies_on)
 {
-    // The middle of a cell of 0.1 m lies deeper than the sphere's surface; it must still hide the sphere.
+    // The middle of a cell of 0.1 m is deeper than the sphere's surface; it must still hide the sphere.
     Sheet sheet = make_sheet(11, 11, 0);
     const Vec3d centre{0, 0.5, 0};
     for (std::size_t i = 0; i < sheet.positions.size(); ++i) {
@@ -596,7 +596,7 @@ TEST_F(Picture, refuses_what_does_not_fit)
 TEST(PictureLife, leaves_nothing_behind)
 {
     if (vulkan::list_physical_devices().empty()) GTEST_SKIP() << "there is no Vulkan device";
-    // The validation layer speaks up when a device is destroyed before all that was made of it.
+    // The validation layer reports a device that is destroyed before its objects.
     testing::internal::CaptureStderr();
     {
         const auto device = std::make_shared<vulkan::Device>(vulkan::DeviceOptions{.validation = true});

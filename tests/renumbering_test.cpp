@@ -1,4 +1,4 @@
-// Nodes of a mesh in an order of their own: nothing that a simulation gives shows it.
+// Renumbered nodes of a mesh: a simulation's results do not show the order.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ SurfaceMesh patch(const Name& name)
     return mesh;
 }
 
-/// With all that a node may have to do with: wind, a collider, pins that stand and move.
+/// With all features of a node: wind, a collider, fixed and moving pins.
 template <class Name>
 Scene patch_scene(const Name& name, std::uint32_t pin, std::uint32_t moving_pin,
                   Method method = Method::mass_spring)
@@ -57,7 +57,7 @@ Scene patch_scene(const Name& name, std::uint32_t pin, std::uint32_t moving_pin,
 }
 Scene leaping_scene(Method method = Method::mass_spring) { return patch_scene(leaping_name, 5, 40, method); }
 
-// The hash is that of the version before nodes were renumbered, which stepped them in the order of the mesh.
+// The hash is from the version before renumbering, which stepped nodes in the order of the mesh.
 TEST(Renumbering, LeavesEveryBitAsItIsInTheOrderOfTheMesh)
 {
     for (const Backend backend : {Backend::cpu, Backend::vulkan}) {
@@ -87,7 +87,7 @@ TEST(Renumbering, PutsNeighboursNearEachOther)
     }
 }
 
-/// Without anything that goes by the order of the mesh's vertices.
+/// Without features that depend on the order of the mesh's vertices.
 template <class Name>
 Simulation hanging_patch(const Name& name, Method method)
 {
@@ -104,7 +104,7 @@ Simulation hanging_patch(const Name& name, Method method)
     return simulation;
 }
 
-// What newton_multigrid adds up goes by the order of the nodes, and that is by their places.
+// newton_multigrid sums in the order of the nodes, which follows from their positions.
 TEST(Renumbering, MakesConstraintsIndependentOfTheOrderOfTheMesh)
 {
     Simulation leaping = hanging_patch(leaping_name, Method::constraint);

@@ -1,4 +1,4 @@
-// Scenes that are refused, and in which words.
+// Scenes that are refused, and their messages.
 #include <limits>
 
 #include "test_errors.hpp"

@@ -1,4 +1,4 @@
-// What the host leaves out of a program is what its guards skip, and nothing else.
+// The host skips exactly what the guards of a program skip.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -25,7 +25,7 @@ std::vector<Call> frame_of(const char* scene_name, std::uint32_t steps)
     return calls;
 }
 
-/// Calls that do something while these guards are set, by the rule of every backend.
+/// Calls that run while these guards are set, by the rule of every backend.
 std::vector<std::size_t> called(const std::vector<Call>& calls, const std::set<Guard>& set)
 {
     std::vector<std::size_t> result;

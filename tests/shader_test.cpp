@@ -1,4 +1,4 @@
-// What the promise of equal bits rests on in the shaders: no floating-point instruction may be contracted.
+// The basis of equal bits in the shaders: no floating-point instruction may be contracted.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -49,7 +49,7 @@ std::vector<Shader> all_shaders()
 TEST(ComputeShaders, HaveNoInstructionThatMayBeContracted)
 {
     for (const Shader& shader : all_shaders()) {
-        // Laws are exact by their own text; the text around them, in the solver, is made so.
+        // Laws are exact by their own text; the solver's code around them is made exact here.
         const auto code = shader.of_solver ? vulkan::with_exact_arithmetic(shader.code)
                                            : std::vector(shader.code.begin(), shader.code.end());
         std::set<std::uint32_t> exact;

@@ -1,5 +1,5 @@
-// Steps of a sheet that the CPU takes in one pass over its rows, and a GPU in one dispatch, against the same
-// steps in a pass each: the same operations in the same order at every node, so the same bits.
+// Several steps of a sheet in one pass over its rows (CPU), or in one dispatch (GPU), compared with single
+// steps: the same operations in the same order at every node, and thus the same bits.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -74,7 +74,7 @@ TEST_P(SheetSteps, AreTheSameInOnePassOverTheRows)
         test::expect_same_bits(expected, state_after(model, way.options(), frame_steps),
                                testing::PrintToString(way));
     if (!test::has_vulkan || GetParam().rows == 600) return;  // for the gaps of the CPU's parts
-    // 19 steps are shared out as pairs of 2 or 4, as 3, and what is left.
+    // 19 steps are divided into pairs of 2 or 4, into 3, and the rest.
     SimulationOptions vulkan = test::on(Backend::vulkan);
     for (vulkan.gpu_substeps = 2; vulkan.gpu_substeps <= vulkan::most_sheet_steps; ++vulkan.gpu_substeps)
         test::expect_same_bits(expected, state_after(model, vulkan, frame_steps),

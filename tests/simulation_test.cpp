@@ -1,5 +1,4 @@
-// Whole simulations: backends and threads agree, the public face does what it says, and long or large runs
-// hold.
+// Whole simulations: backends and threads agree, the public interface works, and long or large runs succeed.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -44,9 +43,9 @@ TEST(Parity, CpuAndVulkanEndWithTheSameBitsAndFollowTheReference)
     const EndState vulkan = end_of(scene, test::on(Backend::vulkan), frames);
     const EndState reference = end_of(scene, test::on(Backend::reference), frames);
     EXPECT_EQ(cpu.hash, vulkan.hash);
-    // A step rounds positions of 0.5 to 1 m by at most half an ulp, 2^-25 m. In tension nothing amplifies
-    // that, and roundings are as good as independent: 4,000 steps walk sqrt(4,000) of them, 1.9e-6 m. As
-    // much again for what the velocities' roundings add.
+    // A step rounds positions of 0.5 to 1 m by at most half an ulp, 2^-25 m. Under tension nothing amplifies
+    // that, and roundings are nearly independent: over 4,000 steps they add up to sqrt(4,000) of them, 1.9e-6
+    // m. The roundings of velocities add as much again.
     constexpr double steps = frames * 100, half_ulp = 0x1p-25;
     const double furthest = test::largest_difference(cpu.positions, reference.positions);
     EXPECT_LE(furthest, 2 * std::sqrt(steps) * half_ulp);
@@ -243,7 +242,7 @@ TEST(Simulation, NormalsStrainsAndTrianglesAreThereWhenAsked)
     }
 }
 
-/// What a host does with the buffers: a copy of its own.
+/// A host's use of the buffers: its own copy.
 void copy_from(const vulkan::Device& device, vk::Buffer source, std::vector<float>& values)
 {
     const vk::DeviceSize bytes = values.size() * sizeof(float);
@@ -299,7 +298,7 @@ TEST(Simulation, TimesItsPasses)
     }
 }
 
-/// A host's own threads: one per task, as clumsily as can be.
+/// A host's own threads: one per task, deliberately inefficient.
 class HostJobs final : public JobSystem {
 public:
     unsigned thread_count() const override { return 3; }

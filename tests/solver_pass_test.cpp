@@ -1,6 +1,6 @@
-// The passes of the constraint solver on every backend and on odd sizes, a step at a time: cpu in each
-// instruction set and on several threads and vulkan agree bit by bit, and follow the reference to rounding
-// and what steps are left unsolved.
+// The passes of the constraint solver on every backend, with odd sizes, one step at a time: cpu with each
+// instruction set and several threads and vulkan agree bit by bit, and match the reference up to rounding and
+// the tolerance of steps.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -108,8 +108,8 @@ Scene scene_of(const SolverCase& c)
     scene.newton_multigrid.linear_tolerance = 1e-4;
     scene.newton_multigrid.newton_tolerance = 1e-5;
     scene.newton_multigrid.newton_iterations = 40;
-    // Both ways, and to rest: what pulls one way only is switched by rounding where it hardly pulls. That is
-    // tested as physics, in constraint_test.cpp and paper_solver_test.cpp.
+    // Both directions, to rest length: one-sided limits are switched by rounding where they hardly pull.
+    // Their physics is tested in constraint_test.cpp and paper_solver_test.cpp.
     scene.newton_multigrid.resists = Resists::both;
     if (c.solver == Solver::paper) scene.acad.target = AcadTarget::rest;
     scene.paper.tolerance = 1e-6;
@@ -138,7 +138,7 @@ std::vector<Call> frame_of(const ClothModel& model, std::uint32_t parity)
     return calls;
 }
 
-/// Stretched at first, so that there is something to do for constraints and ACAD.
+/// Stretched at first, so that constraints and ACAD have work to do.
 ClothModel stretched_model(const Scene& scene)
 {
     ClothModel model(scene.cloth(0), scene);
@@ -194,9 +194,9 @@ TEST_P(SolverParity, FollowsTheReference)
     EXPECT_LE(test::largest_difference(state.position, exact.position), tolerance) << way;
     test::Largest multiplier;
     for (const float m : exact.multiplier) multiplier.add(double{m});
-    EXPECT_GT(multiplier.value(), 0.01);  // N: constraints have had something to do
+    EXPECT_GT(multiplier.value(), 0.01);  // N: constraints have acted
     EXPECT_LE(test::largest_difference(state.multiplier, exact.multiplier), 0.02 * multiplier.value() + 1e-3);
-    // A step that is left out on every backend would be one on which all agree.
+    // A step that every backend skips would also make all of them agree.
     EXPECT_GT(test::largest_difference(exact.position, positions_of(model)), 1e-5);
 }
 

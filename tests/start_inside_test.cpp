@@ -1,4 +1,4 @@
-// Nodes that start inside a collider, or that one is put over, are let out without being thrown.
+// Nodes that start inside a collider, or that a collider jumps onto, rise slowly instead of being thrown.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -57,9 +57,8 @@ Motion largest_of(Simulation& simulation, int frames)
     return most;
 }
 
-// A ball pokes 25 cm through a sheet. Nodes come out at 1 m/s at most, so that the cloth has not more than
-// m v^2 / 2 of that, and what gravity gives to a cloth that slides off, m g times the 25 cm; it does not fly
-// higher than the ball's top and what 1 m/s takes it further, v^2 / 2g.
+// A ball pokes 25 cm through a sheet. Nodes rise at 1 m/s at most, so the cloth's energy is at most m v^2 /
+// 2, plus m g times the 25 cm from sliding off; it flies at most v^2 / 2g higher than the ball's top.
 TEST_P(StartInside, ABallInASheetDoesNotThrowIt)
 {
     Scene scene = sheet_at(GetParam(), {0, 1, 0}, 0.8);
@@ -72,7 +71,7 @@ TEST_P(StartInside, ABallInASheetDoesNotThrowIt)
     EXPECT_LT(most.energy, mass * (speed * speed / 2 + g * 0.25));
     EXPECT_LT(most.height, top + speed * speed / (2 * g));
     EXPECT_LT(most.stretch, 0.5);
-    // It does come out. A cloth that does not stretch takes longer: it has to slide over the ball as a whole.
+    // It does come out. An inextensible cloth takes longer: it must slide over the ball as a whole.
     if (!slow) {
         EXPECT_LT(simulation.report().measures.max_penetration,
                   GetParam().method == Method::constraint ? 0.125 : 0.05);
@@ -80,7 +79,8 @@ TEST_P(StartInside, ABallInASheetDoesNotThrowIt)
     }
 }
 
-// A sheet that is wholly inside of a ball: springs hold it there, or it gets out. It is calm either way.
+// A sheet that is completely inside a ball: springs keep it there, or it comes out. It stays calm in either
+// case.
 TEST_P(StartInside, ABallAroundASheetLeavesItCalm)
 {
     Scene scene = sheet_at(GetParam(), {0, 1, 0}, 0.8);

@@ -1,4 +1,4 @@
-// `pliant check`: what is in a scene or a mesh; and the repair of a mesh.
+// `pliant check`: the contents of a scene or a mesh, and the repair of a mesh.
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -34,7 +34,7 @@ int check_scene(const std::string& name, const std::vector<std::string>& overrid
     return 0;
 }
 
-/// Whether the mesh could be a body with volume, and what is left.
+/// Whether the mesh could be a body with volume, and what is missing.
 std::string state_of(const SurfaceMesh& mesh)
 {
     const MeshReport report = inspect_mesh(mesh);
@@ -48,7 +48,7 @@ std::string state_of(const SurfaceMesh& mesh)
                : "not closed";
 }
 
-/// What the default repair would do, and what holes would take.
+/// What the default repair would change, and what filling holes would add.
 void preview_repair(SurfaceMesh mesh)
 {
     const RepairReport report = repair_mesh(mesh);
@@ -78,8 +78,8 @@ int check_mesh(const CheckOptions& options)
         const std::string lines = describe(repair_mesh(mesh, options.repair_options));
         text += lines.empty() ? "\nnothing to repair\n"
                               : "\nrepaired:\n" + lines + "\n" + describe(inspect_mesh(mesh));
-        if (!out.empty()) write_mesh(out, mesh);  // before anything is printed: it may fail
-        text += out.empty() ? "nothing was written; --out FIXED.ply keeps the mended mesh\n"
+        if (!out.empty()) write_mesh(out, mesh);  // before anything is printed, since it may fail
+        text += out.empty() ? "nothing was written; use --out FIXED.ply to write the repaired mesh\n"
                             : "written: " + options.out_file + "\n";
     }
     std::fputs(text.c_str(), stdout);
@@ -95,7 +95,7 @@ int check_command(const CheckOptions& options)
     if (ending.empty() || ending == ".json") {
         if (options.repair)
             throw Error(ErrorKind::bad_usage,
-                        "--repair mends a mesh, and " + options.scene_or_mesh + " is a scene");
+                        "--repair is for a mesh, and " + options.scene_or_mesh + " is a scene");
         return check_scene(options.scene_or_mesh, options.overrides);
     }
     if (!is_mesh_file(options.scene_or_mesh))
@@ -103,10 +103,10 @@ int check_command(const CheckOptions& options)
             ErrorKind::bad_input,
             "'" + options.scene_or_mesh +
                 "' is neither a scene (a name of 'pliant list', or .json) nor a mesh (.ply, .obj, .stl, "
-                ".off, .gltf, .glb), by its ending");
+                ".off, .gltf, .glb), by its extension");
     if (!options.overrides.empty())
         throw Error(ErrorKind::bad_usage,
-                    "--set changes a scene, and " + options.scene_or_mesh + " is a mesh");
+                    "--set is for a scene, and " + options.scene_or_mesh + " is a mesh");
     return check_mesh(options);
 }
 

@@ -1,5 +1,5 @@
-// The sub-commands of `pliant`. Each returns the exit code: 0 good, 1 bad input, 2 bad usage, 3 diverged,
-// 4 device failure; errors may also be thrown as pliant::Error.
+// The sub-commands of `pliant`. Each returns the exit code: 0 good, 1 bad input, 2 bad usage, 3 diverged, 4
+// device failure; they may also throw pliant::Error.
 #pragma once
 
 #include <cstdint>
@@ -20,19 +20,18 @@ struct RunOptions {
     std::string statistics_file, summary_file, cache_file;
     std::vector<std::string> picture_files;
     std::string stills;  ///< pattern for a few pictures over the run
-    bool check = false;  ///< hold the run against the scene's own check
+    bool check = false;  ///< test the run against the scene's own check
     bool quiet = false;
 };
 
-/// No output of a run takes the place of another, or of what the run reads; throws Error(bad_usage) that
-/// names both.
+/// Checks that no output of a run overwrites another, or an input; throws Error(bad_usage) that names both.
 void check_outputs(const RunOptions& options, const Scene& scene);
 
 int run_command(const RunOptions& options);
 int list_command();
 
 struct InfoOptions {
-    bool all = false;         ///< with what is there for tests alone
+    bool all = false;         ///< also what exists only for tests
     std::string report_file;  ///< empty: none
 };
 int info_command(const InfoOptions& options);
@@ -42,7 +41,7 @@ struct CheckOptions {
     std::vector<std::string> overrides;  ///< path=value, of a scene
     bool repair = false;                 ///< a mesh, by `repair_options`
     RepairOptions repair_options;
-    std::string out_file;  ///< for the repaired mesh; empty: it is not kept
+    std::string out_file;  ///< for the repaired mesh; empty: not written
 };
 int check_command(const CheckOptions& options);
 
@@ -51,7 +50,7 @@ struct ViewOptions {
     SimulationOptions simulation;
     std::vector<std::string> overrides;   ///< path=value
     std::optional<std::uint64_t> frames;  ///< of the display, after which it ends
-    std::string size;                     ///< WxH in pixels; empty: the scene camera's
+    std::string size;                     ///< WxH in pixels; empty: that of the scene's camera
     std::string script_file, log_file, record_file;
     bool headless = false;
     bool paused = false;
@@ -65,7 +64,7 @@ struct RenderOptions {
     std::optional<std::uint64_t> frames;  ///< of the scene, instead of its duration
     std::string camera;                   ///< "x,y,z,target x,y,z[,field of view]"; empty: the scene's
     std::string size;                     ///< WxH in pixels
-    std::optional<double> frame_rate;     ///< pictures a second; the scene's unless given
+    std::optional<double> frame_rate;     ///< pictures per second; default: the scene's
     std::vector<std::string> overlays;    ///< names of overlays
     std::string compare;                  ///< "method,method"
     std::string out_file;
@@ -73,7 +72,7 @@ struct RenderOptions {
 };
 int render_command(const RenderOptions& options);
 
-/// "640x360". Throws Error(bad_usage) for anything else, and for sides beyond 16 to 16384 pixels.
+/// Parses "640x360". Throws Error(bad_usage) for anything else, and for sides outside 16 to 16384 pixels.
 std::pair<std::uint32_t, std::uint32_t> picture_size(const std::string& text);
 
 }  // namespace pliant::tool

@@ -32,7 +32,7 @@ int info_command(const InfoOptions& options)
     }
     if (options.all)
         for (const cpu::Kernels* kernels : cpu::test_kernels())
-            std::printf("--backend cpu --instruction-set %s: for tests alone, slow\n", kernels->name);
+            std::printf("--backend cpu --instruction-set %s: only for tests, slow\n", kernels->name);
     const auto refused = vulkan::list_refused_devices();
     for (const vulkan::PhysicalDeviceInfo& device : refused)
         std::printf("refused: %s (%s): %s\n", device.name.c_str(), device.kind.c_str(),

@@ -29,8 +29,8 @@ struct ReportScene {
     const char* name;
     std::uint64_t frames;
 };
-// A sheet, a list of springs, a mesh of constraints, the paper's solver, and a body with volume: between them
-// nearly all passes, and few frames, so that a slow device is done in minutes.
+// A sheet, a list of springs, a mesh of constraints, the paper's solver, and a body with volume: together
+// nearly all passes, with few frames, so that a slow device takes only minutes.
 constexpr ReportScene scenes[] = {
     {"parity", 3}, {"wind_list", 3}, {"tablecloth", 1}, {"paper_fig15", 2}, {"twist", 3}};
 
@@ -48,7 +48,7 @@ double seconds_since(std::chrono::steady_clock::time_point start)
 
 Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
-/// Nothing that names a person or the machine's place.
+/// Contains nothing that identifies a person or a place.
 Json describe_machine()
 {
     Json machine;
@@ -87,7 +87,7 @@ Json describe_device(const vulkan::DeviceReport& device)
     return d;
 }
 
-/// The hash after each scene's frames, and what they took; for a device that fails, why.
+/// The hash after each scene's frames, and the time taken; the error of a device that fails.
 class Runs {
 public:
     explicit Runs(std::size_t places) : progress_(places * frames_of_all(), false) {}
@@ -110,7 +110,7 @@ public:
         }
         return runs;
     }
-    /// Scenes of which not all hashes are one.
+    /// Scenes whose hashes differ.
     std::vector<std::string> differing() const
     {
         std::vector<std::string> names;
@@ -129,7 +129,7 @@ private:
         Simulation simulation(read, options);
         run["nodes"] = simulation.node_count();
         run["steps_per_frame"] = simulation.steps_per_frame();
-        run["start_seconds"] = seconds_since(start);  // on a device most of it is the compiler of shaders
+        run["start_seconds"] = seconds_since(start);  // on a device mostly the compilation of shaders
         Json times = Json::array();
         for (std::uint64_t frame = 0; frame < scene.frames; ++frame) {
             start = std::chrono::steady_clock::now();
@@ -154,7 +154,7 @@ private:
 
 int write_machine_report(const std::string& file)
 {
-    AtomicFile target(file);  // before minutes of work, not after
+    AtomicFile target(file);  // fails before minutes of work, not after
     const auto devices = vulkan::report_devices();
     const auto sets = cpu::available_kernels();
 
@@ -199,12 +199,13 @@ int write_machine_report(const std::string& file)
     target.stream() << report.dump(2) << '\n';
     target.commit();
 
-    std::printf("wrote %s: %zu scenes on %zu places\n", file.c_str(), std::size(scenes), usable);
+    std::printf("wrote %s: %zu scenes on %zu devices and instruction sets\n", file.c_str(), std::size(scenes),
+                usable);
     if (differing.empty())
-        std::printf("every scene has one hash\n");
+        std::printf("every scene has the same hash everywhere\n");
     else
         for (const std::string& name : differing)
-            std::printf("the scene %s has different hashes on different places\n", name.c_str());
+            std::printf("the scene %s has different hashes on different devices\n", name.c_str());
     return 0;
 }
 

@@ -1,4 +1,4 @@
-// Ctrl-C and the like, for commands that end in an orderly way.
+// Handles Ctrl-C and similar signals, for commands that end in an orderly way.
 #pragma once
 
 #include <csignal>
@@ -6,7 +6,7 @@
 
 namespace pliant::tool {
 
-/// While it lives, Ctrl-C and the like only set a number, which the command looks at between two frames.
+/// During its lifetime, such signals only set a number, which the command tests between frames.
 class InterruptGuard {
 public:
     InterruptGuard()
@@ -21,7 +21,7 @@ public:
     InterruptGuard(const InterruptGuard&) = delete;
     InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-    /// The number of the signal that came; 0 while none has.
+    /// The number of the last signal; 0 if there was none.
     static int signal_number() { return number_; }
 
 private:

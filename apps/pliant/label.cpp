@@ -17,7 +17,7 @@
 namespace pliant::tool {
 namespace {
 
-/// A corner as stb_easy_font writes it; four make a rectangle along the axes.
+/// A vertex of stb_easy_font; four form an axis-aligned rectangle.
 struct Corner {
     float x = 0, y = 0, z = 0;
     unsigned char colour[4] = {};
@@ -44,7 +44,7 @@ void write_label(Image& image, std::uint32_t first_column, const std::string& te
     constexpr Colour dark = 24, light = 236;
     constexpr long pixels_for_each_scale = 240;
     const long scale = std::max(1l, image.height / pixels_for_each_scale), margin = 3 * scale;
-    std::string copy = text;  // the library takes it as if it wrote to it
+    std::string copy = text;  // the library's parameter is not const
     std::vector<Corner> corners(4 * 64 * (text.size() + 1));
     const int rectangles = stb_easy_font_print(0, 0, copy.data(), nullptr, corners.data(),
                                                static_cast<int>(corners.size() * sizeof(Corner)));

@@ -7,8 +7,8 @@
 
 namespace pliant::tool {
 
-/// Writes ASCII into the upper left corner of the part of a picture that begins at a column, light on dark,
-/// as large as suits the picture's height. What does not fit is cut off.
+/// Writes ASCII text, light on dark, into the upper left corner of the part of a picture that begins at a
+/// column. Its size follows the picture's height; text that does not fit is cut off.
 void write_label(Image& image, std::uint32_t first_column, const std::string& text);
 
 }  // namespace pliant::tool

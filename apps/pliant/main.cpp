@@ -1,4 +1,4 @@
-// The command line tool: what it understands, and how it ends.
+// The command line tool: its options and its exit codes.
 #include <cstdio>
 #include <exception>
 #include <map>
@@ -22,7 +22,7 @@ constexpr const char* exit_codes =
     "Exit codes: 0 good, 1 bad input, 2 bad usage, 3 the run diverged, 4 device failure, 130 ended by "
     "Ctrl-C.\n";
 
-/// What a simulation runs on, alike in every command that has one.
+/// The options of a simulation's device, the same in every command.
 void add_machine(CLI::App& app, SimulationOptions& options)
 {
     static const std::map<std::string, Backend> backends = {{"auto", Backend::automatic},
@@ -38,7 +38,7 @@ void add_machine(CLI::App& app, SimulationOptions& options)
                                               "'" + name + "' is none of auto, cpu, vulkan, reference");
                options.backend = found->second;
            },
-           "auto (a real GPU when there is one, else cpu), cpu, vulkan, or reference (serial, double)")
+           "auto (a hardware GPU if there is one, else cpu), cpu, vulkan, or reference (serial, double)")
         ->type_name("auto|cpu|vulkan|reference");
     app.add_option("--device", options.device, "Vulkan device by its number in pliant info")
         ->check(CLI::Range(0, 1000))
@@ -50,27 +50,27 @@ void add_machine(CLI::App& app, SimulationOptions& options)
         ->type_name("N");
     app.add_flag(
         "--fast-math", options.fast_math,
-        "Explicit steps by the machine's own inverse square root and fused products: faster, and the "
-        "bits are no longer the same on every machine");
+        "Explicit steps with the machine's own inverse square root and fused multiply-add: faster, but "
+        "the bits then differ between machines");
     app.add_option(
            "--gpu-substeps", options.gpu_substeps,
-           "Vulkan: steps of a sheet in one dispatch where nothing is between them; the result does not "
-           "depend on it (default 1)")
+           "Vulkan: consecutive steps of a sheet in one dispatch, 1 to 4; the result does not depend on it "
+           "(default 1)")
         ->check(CLI::Range(1u, vulkan::most_sheet_steps))
         ->type_name("N");
     options.pipeline_folder = cache_folder();
     app.add_flag_callback(
         "--no-pipeline-cache", [&options] { options.pipeline_folder.clear(); },
-        "Compile the device's shaders anew, and keep nothing of them in the user's cache folder");
+        "Compile all shaders again, and write no compiled pipelines to the user's cache folder");
 }
 void add_validation(CLI::App& app, SimulationOptions& options)
 {
-    app.add_flag("--validation", options.validation, "Vulkan with its validation layer, for developers");
+    app.add_flag("--validation", options.validation, "Enable Vulkan's validation layer, for developers");
 }
 
 void add_run(CLI::App& app, RunOptions& options)
 {
-    CLI::App* run = app.add_subcommand("run", "Simulate a scene and keep what you ask for");
+    CLI::App* run = app.add_subcommand("run", "Simulate a scene and write the requested files");
     run->footer(
         "Examples:\n"
         "  pliant run cloth_sphere --render sphere.mp4\n"
@@ -101,7 +101,7 @@ void add_run(CLI::App& app, RunOptions& options)
         ->check(file_name);
     run->add_option(
            "--summary", options.summary_file,
-           "Summary of the run, JSON; its frames_per_second and real_time_factor count the simulation alone")
+           "Summary of the run, JSON; frames_per_second and real_time_factor exclude pictures and files")
         ->type_name("F.json")
         ->check(file_name);
     run->add_option(
@@ -118,16 +118,16 @@ void add_run(CLI::App& app, RunOptions& options)
         ->type_name("still_%04d.png")
         ->check(file_name);
     run->add_flag("--check", options.check,
-                  "Hold the run against the scene's own check; exit code 1 when it fails")
+                  "Test the run against the scene's own check; exit code 1 if it fails")
         ->excludes("--frames");
     add_validation(*run, options.simulation);
-    run->add_flag("--quiet", options.quiet, "Print nothing but warnings and errors");
+    run->add_flag("--quiet", options.quiet, "Print only warnings and errors");
 }
 
 void add_bench(CLI::App& app, BenchOptions& options)
 {
-    CLI::App* bench =
-        app.add_subcommand("bench", "Measure steps and solvers on this machine, beside baselines");
+    CLI::App* bench = app.add_subcommand(
+        "bench", "Measure steps and solvers on this machine, and compare them with baselines");
     bench->footer(
         "Examples:\n"
         "  pliant bench mss --plot steps.svg --csv steps.csv\n"
@@ -147,15 +147,16 @@ void add_bench(CLI::App& app, BenchOptions& options)
         ->delimiter(',')
         ->check(CLI::Range(16, 64'000'000))
         ->type_name("N,N,...");
-    bench->add_option("--only", options.only, "Only the cases with this in their names, as in --only hanging")
+    bench->add_option("--only", options.only, "Only cases whose name contains TEXT, such as --only hanging")
         ->type_name("TEXT");
     bench
-        ->add_option("--mesh", options.meshes,
-                     "A mesh that is measured, too: its linear systems (constraint), its steps as a soft "
-                     "body (volume); may "
-                     "be given several times")
+        ->add_option(
+            "--mesh", options.meshes,
+            "Also measure a mesh: its linear systems (constraint), its steps as a soft body (volume); may be "
+            "repeated")
         ->type_name("FILE");
-    bench->add_flag("--quick", options.quick, "Small cloths and few frames: to see that it works");
+    bench->add_flag("--quick", options.quick,
+                    "Small cloths and few frames: a test run, without meaningful figures");
     bench->add_option("--json", options.json_file, "All rows, JSON")->type_name("F.json");
     bench->add_option("--csv", options.csv_file, "All rows, CSV")->type_name("F.csv");
     bench->add_option("--plot", options.plot_file, "Time of a step over nodes, SVG")->type_name("F.svg");
@@ -164,13 +165,13 @@ void add_bench(CLI::App& app, BenchOptions& options)
 void add_check(CLI::App& app, CheckOptions& options)
 {
     CLI::App* check =
-        app.add_subcommand("check", "Tell what is in a scene or a mesh, and whether it is good; mend a mesh");
+        app.add_subcommand("check", "Describe a scene or a mesh and its defects; repair a mesh");
     check->footer(
         "Examples:\n"
         "  pliant check cloth_sphere\n"
         "  pliant check scan.stl\n"
         "  pliant check scan.stl --repair --weld 1e-5 --fill-holes --out scan.ply\n"
-        "A mesh that could be read is no error, whatever is found in it: the exit code is 0.\n");
+        "If the mesh can be read, the exit code is 0, whatever its defects.\n");
     check
         ->add_option("file", options.scene_or_mesh,
                      "A scene file, a built-in scene, or a mesh (.ply, .obj, .stl, .off, .gltf, .glb)")
@@ -181,7 +182,7 @@ void add_check(CLI::App& app, CheckOptions& options)
         ->allow_extra_args(false);
     CLI::Option* repair = check->add_flag(
         "--repair", options.repair,
-        "Mend a mesh: weld vertices, drop degenerate and duplicate triangles and unused vertices, "
+        "Repair a mesh: weld vertices, drop degenerate and duplicate triangles and unused vertices, "
         "make the orientation consistent and outward");
     check
         ->add_option("--weld", options.repair_options.weld_tolerance,
@@ -191,7 +192,7 @@ void add_check(CLI::App& app, CheckOptions& options)
         ->needs(repair);
     check->add_flag("--fill-holes", options.repair_options.fill_holes, "With --repair: close boundary loops")
         ->needs(repair);
-    check->add_option("--out", options.out_file, "With --repair: write the mended mesh, .ply or .obj")
+    check->add_option("--out", options.out_file, "With --repair: write the repaired mesh, .ply or .obj")
         ->type_name("FIXED.ply")
         ->needs(repair);
 }
@@ -203,28 +204,29 @@ void add_info(CLI::App& app, InfoOptions& options)
         "Examples:\n"
         "  pliant info --all\n"
         "  pliant info --report my_machine.json\n"
-        "docs/platforms.md says what becomes of such reports.\n");
-    info->add_flag("--all", options.all, "With the instruction sets that are there for tests alone");
-    info->add_option("--report", options.report_file,
-                     "Run five scenes on everything there is, and write their hashes and times with what is "
-                     "known of the machine, JSON: to send in")
+        "docs/platforms.md explains how such reports are used.\n");
+    info->add_flag("--all", options.all, "Also list instruction sets that exist only for tests");
+    info->add_option(
+            "--report", options.report_file,
+            "Run five scenes on every device and instruction set, and write their hashes and times with a "
+            "description of the machine, JSON, to send in")
         ->type_name("F.json");
 }
 
 void add_reproduce(CLI::App& app, ReproduceOptions& options)
 {
-    CLI::App* reproduce =
-        app.add_subcommand("reproduce", "Run the experiments of both papers, and write ours beside theirs");
+    CLI::App* reproduce = app.add_subcommand(
+        "reproduce", "Run the experiments of both papers, and write a report that compares the results");
     reproduce->footer(
         "Examples:\n"
         "  pliant reproduce --quick\n"
         "  pliant reproduce cloth --out cloth_report --only fig07\n"
-        "Writes report.html, report.md and results.csv. What is done is not done again by the same "
-        "command.\n");
+        "Writes report.html, report.md and results.csv. The same command later skips completed "
+        "experiments.\n");
     reproduce->add_option("papers", options.papers, "cloth, volume or all")
         ->check(CLI::IsMember({"cloth", "volume", "all"}))
         ->type_name("PAPERS");
-    reproduce->add_flag("--quick", options.quick, "Small and short, in minutes: to see that it works");
+    reproduce->add_flag("--quick", options.quick, "Small and short: a test run in minutes");
     reproduce->add_option("--out", options.out, "Folder of the report (default: reproduction)")
         ->check(CLI::Validator(
             [](const std::string& name) {
@@ -234,18 +236,18 @@ void add_reproduce(CLI::App& app, ReproduceOptions& options)
         ->type_name("DIR");
     reproduce
         ->add_option("--only", options.only,
-                     "Only the experiments with this in their names (--list); may be repeated")
+                     "Only experiments whose name (--list) contains TEXT; may be repeated")
         ->type_name("TEXT")
         ->allow_extra_args(false);
     reproduce
         ->add_option("--meshes", options.meshes,
-                     "Folder with bunny_8k.ply, armadillo_15k.ply and spot_31k.ply; without, generated "
-                     "shapes stand in")
+                     "Folder with bunny_8k.ply, armadillo_15k.ply and spot_31k.ply; without it, generated "
+                     "shapes are used")
         ->type_name("DIR");
-    reproduce->add_flag("--list", options.list, "Tell the names of the experiments, and do nothing");
+    reproduce->add_flag("--list", options.list, "Print the names of the experiments and exit");
 }
 
-/// Options that view and render have in common.
+/// Options that view and render share.
 void add_simulation(CLI::App& app, SimulationOptions& options, std::vector<std::string>& overrides)
 {
     add_machine(app, options);
@@ -257,23 +259,24 @@ void add_simulation(CLI::App& app, SimulationOptions& options, std::vector<std::
 
 void add_view(CLI::App& app, ViewOptions& options)
 {
-    CLI::App* view = app.add_subcommand("view", "See a scene move in a window, and touch it");
+    CLI::App* view = app.add_subcommand("view", "Show a scene in a window and interact with it");
     view->footer(
         "Examples:\n"
         "  pliant view flag\n"
         "  pliant view hanging --set method=acad --size 1920x1080\n"
         "  pliant view cloth_sphere --headless --frames 120 --script session.json --log session.jsonl\n"
-        "F1 in the window shows what keys and mouse do.\n");
+        "Press F1 in the window for keys and mouse.\n");
     view->add_option("scene", options.scene, "A scene file, a built-in scene (pliant list), or a mesh")
         ->type_name("SCENE");
     add_simulation(*view, options.simulation, options.overrides);
-    view->add_option("--size", options.size, "Pixels of the window, as 1280x720")->type_name("WxH");
-    view->add_option("--frames", options.frames, "Frames of the display after which it ends")
+    view->add_option("--size", options.size, "Size of the window in pixels, such as 1280x720")
+        ->type_name("WxH");
+    view->add_option("--frames", options.frames, "Display frames after which the viewer ends")
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
         ->type_name("N");
     view->add_flag("--paused", options.paused, "Begin paused");
     view->add_option("--script", options.script_file,
-                     "Events by time, JSON; every frame then counts as 1/60 s, however long it takes")
+                     "Timed events, JSON; every frame then lasts 1/60 s of simulated time")
         ->type_name("F.json");
     view->add_option("--log", options.log_file, "A line of JSON for each frame, with the state's hash")
         ->type_name("F.jsonl");
@@ -301,11 +304,13 @@ void add_render(CLI::App& app, RenderOptions& options)
         ->type_name("F");
     render
         ->add_option("--camera", options.camera,
-                     "Where it is, what it looks at (m), and its vertical angle: X,Y,Z,TX,TY,TZ[,DEGREES]")
+                     "Position and target (m), and vertical field of view: X,Y,Z,TX,TY,TZ[,DEGREES]")
         ->type_name("NUMBERS");
-    render->add_option("--size", options.size, "Pixels, as 1280x720; with --compare of both together")
+    render
+        ->add_option("--size", options.size,
+                     "Size in pixels, such as 1280x720; with --compare, of both pictures together")
         ->type_name("WxH");
-    render->add_option("--fps", options.frame_rate, "Pictures in a second of the scene's time")
+    render->add_option("--fps", options.frame_rate, "Pictures per second of simulated time")
         ->check(CLI::Range(1.0, 1000.0))
         ->type_name("N");
     render->add_option("--frames", options.frames, "Frames to simulate, instead of the scene's duration")
@@ -317,9 +322,9 @@ void add_render(CLI::App& app, RenderOptions& options)
                      "repeated")
         ->type_name("NAME")
         ->allow_extra_args(false);
-    render->add_option("--compare", options.compare, "Two methods side by side, as mass_spring,acad")
+    render->add_option("--compare", options.compare, "Two methods side by side, such as mass_spring,acad")
         ->type_name("A,B");
-    render->add_flag("--quiet", options.quiet, "Print nothing but warnings and errors");
+    render->add_flag("--quiet", options.quiet, "Print only warnings and errors");
 }
 
 int dispatch(int argc, char** argv)
@@ -327,7 +332,7 @@ int dispatch(int argc, char** argv)
     CLI::App app("Pliant: cloth and soft bodies in real time, on any Vulkan GPU and on the CPU", "pliant");
     app.set_version_flag("--version", "pliant " PLIANT_VERSION);
     app.require_subcommand(1);
-    app.footer(std::string("'pliant run --help' tells more. ") + exit_codes);
+    app.footer(std::string("See 'pliant run --help' for more. ") + exit_codes);
 
     RunOptions run_options;
     add_run(app, run_options);

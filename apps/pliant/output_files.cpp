@@ -1,4 +1,4 @@
-// What can be known of a run's files before it starts.
+// Checks of a run's files before it starts.
 #include <filesystem>
 #include <map>
 

@@ -4,7 +4,7 @@
 
 namespace pliant::tool {
 
-/// The processor as the system names it; empty where it does not.
+/// The processor's name in the operating system; empty if unknown.
 std::string processor_name();
 
 }  // namespace pliant::tool

@@ -1,4 +1,4 @@
-// Progress of a long job: a bar on a terminal, a plain line now and then elsewhere, nothing when quiet.
+// Progress of a long job: a bar on a terminal, occasional lines elsewhere, nothing if quiet.
 #pragma once
 
 #include <chrono>
@@ -9,15 +9,15 @@ namespace pliant::tool {
 
 class Progress {
 public:
-    /// `unit` names what is counted.
+    /// `unit`: the name of what is counted.
     Progress(std::uint64_t total, bool quiet, const char* unit = "frame");
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// `done` of `total`; `note` is shown beside.
+    /// `done` of `total`; `note` is shown after it.
     void update(std::uint64_t done, const std::string& note);
-    /// Clears the bar, so that other lines can be printed.
+    /// Erases the bar, so that other lines can be printed.
     void clear();
 
 private:

@@ -1,4 +1,4 @@
-// pliant render: pictures of a scene with overlays, and of two methods side by side.
+// `pliant render`: pictures of a scene with overlays, and of two methods side by side.
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -15,7 +15,7 @@
 namespace pliant::tool {
 namespace {
 
-/// Numbers with commas between them; throws Error(bad_usage).
+/// Parses numbers separated by commas; throws Error(bad_usage).
 std::vector<double> numbers_of(const std::string& text)
 {
     std::vector<double> numbers;
@@ -38,10 +38,10 @@ Camera camera_of(const RenderOptions& options, Camera camera)
     if (options.camera.empty()) return camera;
     const std::vector<double> n = numbers_of(options.camera);
     if (n.size() != 6 && n.size() != 7)
-        throw Error(ErrorKind::bad_usage,
-                    "--camera '" + options.camera + "' has " + std::to_string(n.size()) +
-                        " numbers, but needs 6 (where it is, what it looks at, in m) or 7 "
-                        "(and its vertical angle in degrees)");
+        throw Error(ErrorKind::bad_usage, "--camera '" + options.camera + "' has " +
+                                              std::to_string(n.size()) +
+                                              " numbers, but needs 6 (position and target, in m) or 7 "
+                                              "(and the vertical field of view in degrees)");
     camera.position = {n[0], n[1], n[2]};
     camera.target = {n[3], n[4], n[5]};
     if (n.size() == 7) camera.field_of_view = n[6];
@@ -64,7 +64,7 @@ OverlaySet overlays_of(const RenderOptions& options, const Scene& scene)
     return overlays;
 }
 
-/// One simulation and what is drawn of it.
+/// One simulation and its pictures.
 class Film {
 public:
     Film(const Scene& scene, const RenderOptions& options, const std::shared_ptr<vulkan::Device>& device)
@@ -91,15 +91,15 @@ public:
                        image_);
         return image_;
     }
-    /// Throws Error when the run cannot go on.
+    /// Throws Error if the run cannot continue.
     void require_good() const
     {
         const Report& report = simulation_.report();
         const std::string method = name_of(simulation_.scene().method);
         if (report.device_lost)
-            throw Error(ErrorKind::device_failure, "the run by " + method + " stopped: " + report.failure);
+            throw Error(ErrorKind::device_failure, "the run with " + method + " stopped: " + report.failure);
         if (!report.finite)
-            throw Error(ErrorKind::diverged, "the run by " + method + " diverged in frame " +
+            throw Error(ErrorKind::diverged, "the run with " + method + " diverged in frame " +
                                                  std::to_string(report.bad_frame) +
                                                  "; take more substeps (--set time.substeps=N)");
     }
@@ -119,7 +119,7 @@ private:
     Image image_;
 };
 
-/// Pictures of one height beside each other.
+/// Joins two pictures of the same height.
 void put_side_by_side(const Image& left, const Image& right, Image& both)
 {
     both.width = left.width + right.width;
@@ -138,7 +138,7 @@ std::vector<std::string> methods_of(const RenderOptions& options)
     const std::size_t comma = options.compare.find(',');
     if (comma == std::string::npos || options.compare.find(',', comma + 1) != std::string::npos)
         throw Error(ErrorKind::bad_usage,
-                    "--compare '" + options.compare + "' must be two methods, as in mass_spring,acad");
+                    "--compare '" + options.compare + "' must be two methods, such as mass_spring,acad");
     return {options.compare.substr(0, comma), options.compare.substr(comma + 1)};
 }
 
@@ -151,7 +151,7 @@ std::pair<std::uint32_t, std::uint32_t> picture_size(const std::string& text)
     const bool read = std::sscanf(text.c_str(), "%5ux%5u%c", &width, &height, &rest) == 2;
     if (!read || width < 16 || height < 16 || width > 16384 || height > 16384)
         throw Error(ErrorKind::bad_usage,
-                    "--size '" + text + "' must be pixels as in 1280x720, each side 16 to 16384");
+                    "--size '" + text + "' must be a size in pixels such as 1280x720, each side 16 to 16384");
     return {width, height};
 }
 

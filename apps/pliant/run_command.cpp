@@ -26,7 +26,7 @@ std::string with_commas(std::uint64_t n)
     return text;
 }
 
-/// Draws a simulation for the recorders that want pictures; frames stay on the device when the simulation is
+/// Draws a simulation for the recorders that need pictures; frames stay on the device if the simulation is
 /// there.
 class Pictures {
 public:
@@ -51,12 +51,12 @@ public:
         }
     }
 
-    /// Why there are no pictures though some were asked for; empty when there are.
+    /// Why no pictures can be drawn although some were requested; empty if they can.
     const std::string& refusal() const { return refusal_; }
     std::string device_name() const { return painter_ ? painter_->device_name() : ""; }
     double seconds() const { return seconds_; }
 
-    /// The state after a frame, 0 being the start.
+    /// Records the state after a frame; 0 is the start.
     void take(std::uint64_t frame, bool last)
     {
         const auto start = Clock::now();
@@ -64,8 +64,7 @@ public:
             stills_ && (last || std::count(still_frames_.begin(), still_frames_.end(), frame) > 0);
         bool wanted = still;
         for (const auto& recorder : recorders_) wanted |= recorder->wants(frame, last);
-        // Nodes on their way to infinity cannot be seen, and software rasterisers take minutes over their
-        // triangles.
+        // Diverging nodes are not visible, and software rasterisers take minutes for their triangles.
         constexpr double fastest_drawn = 1e6;  // m/s
         if (!wanted || !(simulation_.report().measures.max_speed <= fastest_drawn)) return;
         const Image& image = painter_->draw();
@@ -93,7 +92,7 @@ private:
     double seconds_ = 0;
 };
 
-/// The scene of a run, once its files are known to harm nothing.
+/// The scene of a run, after the check that its files overwrite nothing.
 Scene checked_scene(const RunOptions& options)
 {
     Scene scene = read_scene(options.scene, options.overrides);
@@ -165,15 +164,15 @@ private:
             if (!report.finite || has_diverged(report.measures)) break;
             if (cache_) cache_->add(simulation_, frame);
             last = frame == frames_ ||
-                   InterruptGuard::signal_number() != 0;  // asked once, as a Ctrl-C may come at any time
+                   InterruptGuard::signal_number() != 0;  // read once, since Ctrl-C may come at any time
             pictures_.take(frame, last);
             progress.update(frame,
                             formatted("%.3g x real time", report.simulated_seconds / report.wall_seconds));
         }
     }
 
-    /// Files of the frames so far, when a run ends by an error; whatever is wrong with one does not lose the
-    /// others.
+    /// Completes the files of the frames so far if a run ends by an error; an error in one file does not
+    /// affect the others.
     void keep_what_is_complete() noexcept
     {
         const auto attempt = [](auto&& finish_one) {
@@ -216,7 +215,7 @@ private:
         if (interrupted)
             std::fprintf(stderr, "interrupted after frame %llu; the files are complete up to there\n",
                          static_cast<unsigned long long>(report.frames));
-        return interrupted ? 128 + interrupted : check();  // as a shell counts signals
+        return interrupted ? 128 + interrupted : check();  // the convention of shells
     }
 
     int check()
@@ -253,7 +252,7 @@ private:
             std::fprintf(stderr, "warning: %s\n", warning.c_str());
         const SolverReport& solver = simulation_.report().solver;
         if (solver.frames_cut > 0 && !options_.quiet)
-            std::printf("%llu frames were taken again in shorter steps: %llu steps more in all\n",
+            std::printf("%llu frames were repeated in shorter steps: %llu additional steps\n",
                         static_cast<unsigned long long>(solver.frames_cut),
                         static_cast<unsigned long long>(solver.steps_added));
     }

@@ -1,4 +1,4 @@
-// How long something took, for what is shown to a person.
+// Measures elapsed time, for display.
 #pragma once
 
 #include <chrono>

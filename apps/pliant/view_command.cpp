@@ -1,4 +1,4 @@
-// pliant view: a window in which a scene moves, or the same without one.
+// `pliant view`: shows a scene in a window, or runs the same viewer without one.
 #include <chrono>
 #include <cstdio>
 #include <iostream>
@@ -17,7 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A line of JSON for each frame: what events have done.
+/// Writes a line of JSON for each frame, with the effects of events.
 class SessionLog {
 public:
     explicit SessionLog(const std::string& file)
@@ -32,7 +32,7 @@ public:
         Session& session = viewer.session();
         Simulation& simulation = session.simulation();
         const bool idle = session.is_idle();
-        if (idle) static_cast<void>(session.hold());  // what is told is of one state
+        if (idle) static_cast<void>(session.hold());  // all values of a line belong to one state
         const Camera camera = viewer.camera().camera();
         nlohmann::json line = {
             {"frame", frame},
@@ -58,10 +58,10 @@ public:
         if (file_)
             file_->stream() << line.dump() << '\n';
         else
-            std::cout << line.dump() << std::endl;  // whoever reads it follows the session
+            std::cout << line.dump() << std::endl;  // flushes, so that a reader can follow the session
     }
 
-    /// What is known between steps alone.
+    /// Values that are only available between steps.
     static void add_state(nlohmann::json& line, Session& session)
     {
         Simulation& simulation = session.simulation();
@@ -107,7 +107,7 @@ std::unique_ptr<Screen> make_screen(const ViewOptions& options)
 int view_command(const ViewOptions& options)
 {
     if (options.headless && !options.frames)
-        throw Error(ErrorKind::bad_usage, "--headless needs --frames: without a window, no one could end it");
+        throw Error(ErrorKind::bad_usage, "--headless needs --frames: without a window nothing would end it");
     std::vector<TimedEvent> script;
     if (!options.script_file.empty()) script = read_script(options.script_file);
     SessionLog log(options.log_file);
@@ -116,7 +116,7 @@ int view_command(const ViewOptions& options)
     viewer.session().paused = options.paused;
     if (!options.record_file.empty()) viewer.record(options.record_file);
 
-    // By a script, or without a window, time goes by frames: what happens does not depend on the machine.
+    // With a script, or without a window, time advances by frames, so results do not depend on the machine.
     const bool by_frames = options.headless || !options.script_file.empty();
     constexpr double endless = std::numeric_limits<double>::infinity();
     constexpr double longest = 0.25;  // s

@@ -7,5 +7,6 @@
 #else
 #define PLIANT_API
 #endif
-/// Of one inside that another of the project's libraries links to. It is no part of the interface, and changes without notice.
+/// Of one inside that another of the project's libraries links to. It is no part of the interface, and
+/// changes without notice.
 #define PLIANT_INSIDE PLIANT_API

@@ -1,13 +1,11 @@
-// The larger and the smaller of two numbers, for what is kept over frames, cloths and nodes and then
-// reported.
+// The larger and the smaller of two numbers, for reported values over frames, cloths and nodes. NaN is kept.
 #pragma once
 
 namespace pliant {
 
-/// The larger of two; not a number when one of them is not. std::max(0.0, NaN) is 0, so that what has
-/// diverged would be reported as nothing.
+/// The larger of two; NaN if either is NaN. (std::max(0.0, NaN) is 0, which would hide a diverged value.)
 inline double larger(double a, double b) { return a >= b ? a : b >= a ? b : a + b; }
-/// The smaller of two; not a number when one of them is not.
+/// The smaller of two; NaN if either is NaN.
 inline double smaller(double a, double b) { return a <= b ? a : b <= a ? b : a + b; }
 
 }  // namespace pliant

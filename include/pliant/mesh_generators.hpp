@@ -1,5 +1,5 @@
 // Shapes made in code. All are centred on the origin, with y up; the closed ones face outward and have no
-// seam: no two vertices at one place.
+// coincident vertices.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,8 @@ struct UvSphereOptions {
 };
 PLIANT_API SurfaceMesh uv_sphere_mesh(const UvSphereOptions& options = {});
 
-/// A sphere of nearly equal triangles: an icosahedron whose edges are divided, 10 f^2 + 2 vertices and 20 f^2
-/// triangles.
+/// A sphere of nearly equal triangles: an icosahedron whose edges are divided into f parts, 10 f^2 + 2
+/// vertices and 20 f^2 triangles.
 struct IcosphereOptions {
     double radius = 0.5;           ///< m
     std::uint32_t frequency = 16;  ///< f, 1 to 1024 parts of each edge of the icosahedron
@@ -30,15 +30,15 @@ PLIANT_API SurfaceMesh icosphere_mesh(const IcosphereOptions& options = {});
 
 /// A ring around the y axis: major_segments x minor_segments vertices, twice as many triangles.
 struct TorusOptions {
-    double major_radius = 0.5;          ///< m, of the circle in the middle of the tube
+    double major_radius = 0.5;          ///< m, of the centre line of the tube
     double minor_radius = 0.2;          ///< m, of the tube; below major_radius
     std::uint32_t major_segments = 64;  ///< 3 to 8192 around the y axis
     std::uint32_t minor_segments = 32;  ///< 3 to 8192 around the tube
 };
 PLIANT_API SurfaceMesh torus_mesh(const TorusOptions& options = {});
 
-/// A box of n x n squares on each side, each cut in two: 6 n^2 + 2 vertices, 12 n^2 triangles. The cuts of
-/// neighbouring squares cross in turn, so that no diagonal is preferred. 8 faces make the cube of the volume
+/// A box of n x n squares on each side, each cut in two: 6 n^2 + 2 vertices, 12 n^2 triangles. The diagonals
+/// of neighbouring squares alternate, so that no direction is preferred. 8 faces make the cube of the volume
 /// paper: 386 vertices, 768 triangles, 1,152 edges.
 struct BoxOptions {
     Vec3d size = {1, 1, 1};   ///< m, along x, y, z
@@ -46,7 +46,7 @@ struct BoxOptions {
 };
 PLIANT_API SurfaceMesh box_mesh(const BoxOptions& options = {});
 
-/// A cylinder around the y axis with half a sphere at either end: 2 + segments (2 cap_rings + bands - 1)
+/// A cylinder around the y axis with a half sphere at either end: 2 + segments (2 cap_rings + bands - 1)
 /// vertices.
 struct CapsuleOptions {
     double radius = 0.25;          ///< m
@@ -57,8 +57,8 @@ struct CapsuleOptions {
 };
 PLIANT_API SurfaceMesh capsule_mesh(const CapsuleOptions& options = {});
 
-/// A flat rectangle in the x-z plane that faces up (to positive y), with an edge all around: vertices row by
-/// row, row 0 at the side of negative z, column 0 at the side of negative x.
+/// A flat rectangle in the x-z plane that faces up (+y): vertices row by row, row 0 at negative z, column 0
+/// at negative x.
 struct SheetMeshOptions {
     double width = 1;            ///< m, along x
     double height = 1;           ///< m, along z
@@ -67,13 +67,13 @@ struct SheetMeshOptions {
 };
 PLIANT_API SurfaceMesh sheet_mesh(const SheetMeshOptions& options = {});
 
-/// The same rectangle as an irregular mesh: vertices inside it are moved by up to a fifth of the distance to
+/// The same rectangle as an irregular mesh: inner vertices are moved by up to a fifth of the distance to
 /// their neighbours, the same way in every run, and each square is cut along its shorter diagonal.
 PLIANT_API SurfaceMesh irregular_sheet_mesh(const SheetMeshOptions& options = {});
 
-/// An open tube around the y axis that faces outward, of nearly equal triangles when length / (rows - 1) is
-/// 0.87 of 2 pi radius / segments: rows x segments vertices, row by row from the top, every other row turned
-/// by half a segment.
+/// An open tube around the y axis that faces outward: rows x segments vertices, row by row from the top,
+/// every second row turned by half a segment. Triangles are nearly equal if length / (rows - 1) is 0.87 times
+/// 2 pi radius / segments.
 struct TubeOptions {
     double radius = 0.16;         ///< m
     double length = 1;            ///< m
@@ -82,20 +82,20 @@ struct TubeOptions {
 };
 PLIANT_API SurfaceMesh tube_mesh(const TubeOptions& options = {});
 
-/// A T-shirt: two panels in the shape of a T, body and short sleeves, sewn along shoulders, sleeves and
-/// sides; open at the neck (cut to a V in front), at both cuffs and at the hem. It stands upright (y), its
-/// front looks to positive z, and it faces outward. The panels lie apart as if a little air were between
-/// them. Their squares have a side s of width / (10 n), moved and cut as those of irregular_sheet_mesh: 320
-/// n^2 + 22 n - 2 vertices, 640 n^2 triangles. In s: the body is 10 n wide and 13 n long, a sleeve 4 n by 4
-/// n, the neck 4 n wide and 2 n deep.
+/// A T-shirt: two T-shaped panels, body and short sleeves, sewn along shoulders, sleeves and sides; open at
+/// the neck (cut to a V in front), at both cuffs and at the hem. It stands upright (y), its front faces
+/// positive z, and its triangles face outward. The panels are apart, as if inflated a little. Their squares
+/// have sides s of width / (10 n), moved and cut as those of irregular_sheet_mesh: 320 n^2 + 22 n - 2
+/// vertices, 640 n^2 triangles. In s: the body is 10 n wide and 13 n long, a sleeve 4 n by 4 n, the neck 4 n
+/// wide and 2 n deep.
 struct ShirtOptions {
     double width = 0.5;         ///< m, of the body
     std::uint32_t squares = 7;  ///< n, 1 to 200: squares along a tenth of the width
 };
 PLIANT_API SurfaceMesh shirt_mesh(const ShirtOptions& options = {});
 
-/// A figure with body, head, ears, arms and legs, rounded where they join: one closed component without a
-/// handle, of nearly equal, well-shaped triangles. It stands upright (y) and looks to positive z.
+/// A figure with body, head, ears, arms and legs, with smooth joints: one closed component without handles,
+/// of nearly equal, well-shaped triangles. It stands upright (y) and faces positive z.
 struct BlobOptions {
     double height = 1;                ///< m, from the feet to the tips of the ears
     std::uint32_t vertices = 10'000;  ///< 1,000 to 500,000; the mesh has this many within 5 %

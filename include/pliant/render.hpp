@@ -1,4 +1,5 @@
-// Pictures of a simulation, drawn off-screen by Vulkan: the library pliant_render, which pliant.hpp does not include.
+// Pictures of a simulation, drawn off-screen by Vulkan: the library pliant_render, which pliant.hpp does not
+// include.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,7 @@
-// What is simulated: cloths, colliders, air and gravity. SI units everywhere; y is up.
+// The input of a simulation: cloths, colliders, air and gravity. SI units everywhere; y is up.
 //
-// A Scene is plain data plus the few builders that make it pleasant to write by hand. `read_scene` fills the
-// same structure from a scene file (docs/scenes.md), and `validate` is the one place that says what is
-// allowed.
+// A Scene is plain data with a few builders. `read_scene` fills the same structure from a scene file
+// (docs/scenes.md), and `validate` checks it.
 #pragma once
 
 #include <concepts>
@@ -27,28 +26,28 @@ namespace pliant {
 enum class Corner { top_left, top_right, bottom_left, bottom_right };
 /// Edges of a sheet: "top" is row 0, "left" is column 0.
 enum class Edge { top, bottom, left, right };
-/// An axis-aligned region of the scene; a node that is inside or on the border of it before the first step is
-/// meant.
+/// An axis-aligned region of the scene. It selects the nodes that are inside or on its border before the
+/// first step.
 struct Region {
     Vec3d min, max;  ///< m
 };
-/// What to hold in place: a node index (unsigned, row by row on a sheet), a named corner or edge of a sheet,
-/// or every node in a region.
+/// The nodes of a pin: a node index (unsigned, row by row on a sheet), a named corner or edge of a sheet, or
+/// every node in a region.
 using Pin = std::variant<std::uint32_t, Corner, Edge, Region>;
-/// What a pin can be made of.
+/// The types from which a pin can be made.
 template <class Where>
 concept PinLike = std::constructible_from<Pin, Where>;
 
-/// Where something that moves is at a time; in between, positions and angles are interpolated linearly.
+/// Position and rotation at a time; interpolated linearly in between.
 struct Keyframe {
     double time = 0;      ///< s, increasing
-    Vec3d position = {};  ///< m, added to the thing's own
-    Vec3d rotation = {};  ///< degrees about x, then y, then z, around the thing's centre
+    Vec3d position = {};  ///< m, added to the object's own
+    Vec3d rotation = {};  ///< degrees about x, then y, then z, around the object's centre
 };
 
-/// A pin and how it moves. Anything that a pin can be made of is an attachment that stands still, so that
-/// `cloth.pin(Corner::top_left)` reads well; a moving one is
-/// `cloth.pin({Edge::left, {{.time = 0}, {.time = 2, .position = {0.1, 0, 0}}}})`.
+/// A pin and its motion. It converts from everything that a pin can be made of, without motion:
+/// `cloth.pin(Corner::top_left)`. A moving one is `cloth.pin({Edge::left, {{.time = 0}, {.time = 2, .position
+/// = {0.1, 0, 0}}}})`.
 struct Attachment {
     Attachment() = default;
     template <PinLike Where>
@@ -58,71 +57,71 @@ struct Attachment {
     }
 
     Pin where;
-    /// Empty, and it stands still. Rotations are about the centre (the mean) of the nodes that this pin
-    /// holds, where they stand at the start.
+    /// Empty: it does not move. Rotations are about the centre (the mean) of the pin's nodes at the start.
     std::vector<Keyframe> keyframes = {};
 };
 
-/// How cloth is stepped.
+/// The method that steps cloth.
 enum class Method {
     mass_spring,  ///< springs alone, with explicit steps (the cloth paper, section 2)
-    constraint,   ///< structural and shear springs that do not give beyond their limit, with implicit steps
-    acad,         ///< springs that become constraints while they are stretched too far (the cloth paper)
-    volume,       ///< springs with explicit steps, and one constraint that keeps the volume of each soft body
+    constraint,   ///< structural and shear springs are inextensible beyond their limit, with implicit steps
+    acad,         ///< springs become constraints while they are too long (the cloth paper)
+    volume,       ///< springs with explicit steps, and one volume constraint for each soft body
 };
-/// How springs are stepped over time, of the method mass_spring.
+/// Time integration of springs, for the method mass_spring.
 enum class Integrator {
-    symplectic_euler,  ///< the velocity first, then the position with it: order 1, keeps the energy in bounds
-    explicit_euler,    ///< both from the state before: order 1, and wins energy in every step
-    runge_kutta_4,     ///< four looks at the forces in a step: order 4
+    symplectic_euler,  ///< first the velocity, then the position with it: order 1, bounded energy
+    explicit_euler,    ///< both from the previous state: order 1, gains energy in every step
+    runge_kutta_4,     ///< four evaluations of the forces per step: order 4
     implicit_euler,  ///< forces at the end of the step, by the solver newton_multigrid: order 1, loses energy
 };
-/// What enforces constraints, of the methods constraint and acad.
+/// The solver of constraints, for the methods constraint and acad.
 enum class Solver {
     newton_multigrid,  ///< Newton's method on the step's energy; linear systems by multigrid V-cycles
-    paper,             ///< conjugate gradients for the Lagrange multipliers, as the cloth paper has it
+    paper,             ///< conjugate gradients for the Lagrange multipliers, as in the cloth paper
 };
-/// What a class of springs is.
+/// The role of a class of springs.
 enum class SpringRole {
     /// With the method constraint, structural and shear springs are constraints and bend springs are springs;
-    /// with another method, all are springs.
+    /// with other methods, all are springs.
     automatic,
     spring,      ///< force by stiffness and damping
-    constraint,  ///< holds its length; only with the method constraint
-    off,         ///< not there: no force, whatever the other numbers say
+    constraint,  ///< enforces its length; only with the method constraint
+    off,         ///< no force, whatever its other parameters
 };
-/// Which way a constraint pulls.
+/// The direction in which a constraint acts.
 enum class Resists {
-    tension,  ///< against being longer than at rest alone, as a thread does
-    both,     ///< against being shorter, too, as a rod does
+    tension,  ///< only against being longer than at rest, as a thread
+    both,     ///< also against being shorter, as a rod
 };
 
-/// Stiffness and damping of one class of spring, and whether it is a constraint.
+/// Stiffness and damping of one class of springs, and whether it is a constraint.
 ///
-/// A constraint with limit 0 pulls with (l - l0) / compliance as soon as it is stretched, and its stiffness
-/// is not used. With a limit above 0 it is a spring of its stiffness for stretch up to the limit (and for
-/// compression), and beyond the limit it has the compliance in addition.
+/// A constraint with limit 0 pulls with (l - l0) / compliance as soon as it is longer than l0; its stiffness
+/// is not used. With a limit above 0 it is a spring with its stiffness up to that strain (and under
+/// compression); beyond the limit the compliance acts in addition.
 struct SpringParameters {
     double stiffness = 0;  ///< N/m, 0 to 1e9; 0 together with damping 0: no force
     double damping = 0;    ///< N s/m, 0 to 1e6
     SpringRole role = SpringRole::automatic;
-    double limit = 0;          ///< of a constraint: stretch (l - l0) / l0 before it acts, 0 to 1; 0.01 is 1 %
+    double limit = 0;          ///< of a constraint: strain (l - l0) / l0 at which it begins to act, 0 to 1;
+                               ///< 0.01 is 1 %
     double compliance = 1e-6;  ///< m/N of a constraint beyond its limit, 1e-9 to 1
     /// 0.1 to 10, multiplies the rest lengths that the shape at the start has: below 1 the cloth contracts,
     /// as an elastic hem does, and above 1 it buckles.
     double rest_scale = 1;
 };
 
-/// What resists bending.
+/// The model of bending.
 enum class BendModel {
-    skip_spring,  ///< the papers' springs to every second node; about the flat state they have no stiffness
-    /// B/2 (sum of the principal curvatures)^2 per area, quadratic for shapes that do not stretch; at rest
-    /// the cloth is flat. Takes the place of the stiffness of bend springs.
+    skip_spring,  ///< the papers' springs to every second node; they have no stiffness at the flat state
+    /// B/2 (sum of the principal curvatures)^2 per area, quadratic for inextensible shapes, flat at rest.
+    /// Replaces the stiffness of bend springs.
     quadratic,
 };
 
-/// The three classes of the cloth paper (section 2.1). On a triangle mesh an edge is structural, and a bend
-/// spring joins the two vertices opposite an interior edge; there are no shear springs.
+/// The three classes of the cloth paper (section 2.1). On a triangle mesh, structural springs are the edges,
+/// and a bend spring connects the two vertices opposite an interior edge; there are no shear springs.
 struct Springs {
     SpringParameters structural{1000.0, 0.01};
     SpringParameters shear{500.0,
@@ -132,9 +131,9 @@ struct Springs {
     double bending_stiffness = 1e-5;  ///< N m, 0 to 1e6: B of bend_model quadratic
 };
 
-/// What a cloth is made of: a name for density, stiffnesses and bending stiffness of a piece of real cloth.
+/// The material of a cloth: density, stiffnesses and bending stiffness of a real fabric.
 enum class Material { none, cotton, silk, denim, wool, leather, rubber };
-/// Of a material; where the figures are from is said in docs/scenes.md.
+/// The properties of a material; docs/scenes.md has their sources.
 struct MaterialProperties {
     double density = 0;  ///< kg/m2
     double stretch = 0;  ///< N/m, tension over strain along a thread
@@ -143,102 +142,103 @@ struct MaterialProperties {
 };
 PLIANT_API const MaterialProperties& properties_of(Material material);
 
-/// How spring forces are computed; both give the same bits.
+/// How spring forces are computed; both forms give the same bits.
 enum class Formulation {
     automatic,     ///< node-centric on sheets, spring list on meshes
     node_centric,  ///< each node gathers its (at most 12) springs; sheets only
     spring_list,   ///< the papers' edge-centric form: one force per spring, gathered per node without atomics
 };
 
-/// What the border of a sheet is.
+/// The treatment of a sheet's border.
 enum class SheetBorder {
-    full,  ///< nodes weigh alike, and springs along the border are as stiff as inner ones
-    /// A node weighs what the cloth around it does, and springs along the border are half as stiff: the
-    /// sheet then has the constants of the continuum at every resolution.
+    full,  ///< all nodes have the same mass, and springs along the border are as stiff as inner ones
+    /// A node has the mass of the cloth around it, and springs along the border are half as stiff: the sheet
+    /// then has the constants of the continuum at every resolution.
     half,
 };
 
-/// A rectangular sheet of `rows` x `columns` nodes, flat and at rest, lying in the x-z plane.
+/// A rectangular sheet of `rows` x `columns` nodes, flat and at rest, in the x-z plane.
 struct SheetOptions {
-    std::uint32_t rows = 2;     ///< nodes, >= 2; row 0 is the "top", at the side of negative z
-    std::uint32_t columns = 2;  ///< nodes, >= 2; column 0 is the "left", at the side of negative x
+    std::uint32_t rows = 2;     ///< nodes, >= 2; row 0 is the "top", at negative z
+    std::uint32_t columns = 2;  ///< nodes, >= 2; column 0 is the "left", at negative x
     double width = 1.0;         ///< m, along a row (x before rotation)
     double height = 1.0;        ///< m, along a column (z before rotation)
     SheetBorder border = SheetBorder::full;
-    std::optional<double> density = {};    ///< kg/m2; 0.3 when neither this nor node_mass is given
+    std::optional<double> density = {};    ///< kg/m2; 0.3 if neither this nor node_mass is given
     std::optional<double> node_mass = {};  ///< kg per node, instead of density
 };
 
-/// A round cloth, flat and at rest, lying in the x-z plane: an irregular triangle mesh of 1 + 3 rings (rings
-/// + 1) nodes. Node 0 is in the middle, and the last 6 rings nodes are its hem.
+/// A round cloth, flat and at rest, in the x-z plane: an irregular triangle mesh of 1 + 3 rings (rings + 1)
+/// nodes. Node 0 is in the middle, and the last 6 rings nodes are its hem.
 struct DiscOptions {
     double radius = 0.5;                   ///< m
-    std::uint32_t rings = 32;              ///< 1 to 2364, of nodes around the one in the middle
-    std::optional<double> density = {};    ///< kg/m2; 0.3 when neither this nor node_mass is given
+    std::uint32_t rings = 32;              ///< 1 to 2364, of nodes around the middle one
+    std::optional<double> density = {};    ///< kg/m2; 0.3 if neither this nor node_mass is given
     std::optional<double> node_mass = {};  ///< kg per node, instead of density
 };
 
 /// A cloth of any shape.
 struct MeshOptions {
-    std::optional<double> density = {};    ///< kg/m2; 0.3 when neither this nor node_mass is given
+    std::optional<double> density = {};    ///< kg/m2; 0.3 if neither this nor node_mass is given
     std::optional<double> node_mass = {};  ///< kg per node, instead of density
     double scale = 1.0;                    ///< multiplies the coordinates of the mesh
 };
 
-/// Which springs cross the inside of a soft body.
+/// The internal springs of a soft body.
 enum class InternalKind {
     none,
     opposite,  ///< from each vertex to the one nearest to where its inward normal leaves the body
     nearest,   ///< from each vertex to the nearest ones that face it across the inside
 };
-/// Springs inside a soft body: without them its skin alone resists.
+/// Springs inside a soft body; without them only its surface resists.
 struct InternalSprings {
     InternalKind kind = InternalKind::none;
     std::uint32_t neighbours = 1;  ///< of nearest: 1 to 64 for each vertex
-    std::uint32_t most = 0;        ///< springs at most, those of each vertex's first choice first; 0: all
+    std::uint32_t most = 0;        ///< maximum number of springs; each vertex's first choice has priority; 0:
+                                   ///< all
     double stiffness = 1000;       ///< N/m, 0 to 1e9
     double damping = 0.01;         ///< N s/m, 0 to 1e6
 };
 
-/// A value at a time; in between it is interpolated linearly, before the first and after the last it stays.
+/// A value at a time; interpolated linearly in between, constant before the first and after the last.
 struct TimedValue {
     double time = 0;   ///< s, increasing
     double value = 1;  ///< of a target: V / V0, 0.01 to 100; of a pressure: Pa
 };
 
-/// Where the volume constraint of a soft body moves nodes: eq. (15) of the volume paper, put right. A node at
-/// the distance d of `centre` has the weight (cos(pi d / radius) + 1) / 2, and 0 beyond `radius`.
+/// The nodes that the volume constraint of a soft body moves: eq. (15) of the volume paper, corrected. A node
+/// at the distance d of `centre` has the weight (cos(pi d / radius) + 1) / 2, and 0 beyond `radius`.
 struct VolumeFocus {
     Vec3d centre;       ///< m, in the scene, before the first step
     double radius = 1;  ///< m
 };
 
-/// What keeps the volume of a soft body.
+/// The volume of a soft body.
 struct VolumeOptions {
-    bool constraint = true;  ///< of the method volume: false leaves the springs, and the pressure, alone
-    /// 1e-7 to 1: a step that leaves abs(V / V_target - 1) above this counts in VolumeReport::misses.
+    bool constraint = true;  ///< for the method volume; false: springs and pressure only
+    /// 1e-7 to 1: a step after which abs(V / V_target - 1) is above this counts in VolumeReport::misses.
     double tolerance = 1e-4;
     std::vector<TimedValue> target;    ///< V / V0 over time; empty: 1
-    std::vector<TimedValue> pressure;  ///< Pa inside against outside, in addition; empty: 0
-    std::optional<VolumeFocus> focus;  ///< nothing: all nodes alike
-    std::vector<float> weights;        ///< one for each vertex, 0 to 1, instead of a focus; empty: none
+    std::vector<TimedValue> pressure;  ///< Pa, excess pressure inside; empty: 0
+    std::optional<VolumeFocus> focus;  ///< none: all nodes have the same weight
+    std::vector<float> weights;        ///< one per vertex, 0 to 1, instead of a focus; empty: none
 };
 
 /// A force and a torque on the nodes in a region, from the first step on.
 struct RegionForce {
     Region box;
-    Vec3d force;   ///< N, shared equally by the nodes
-    Vec3d torque;  ///< N m about the middle of the nodes at the start; shared so that all turn alike
+    Vec3d force;   ///< N, divided equally among the nodes
+    Vec3d torque;  ///< N m about the middle of the nodes at the start; divided so that all turn alike
 };
 
-/// What makes a soft body of a cloth: its mesh is a closed surface.
+/// Options of a soft body: a cloth whose mesh is a closed surface.
 struct BodyOptions {
     InternalSprings internal;
     VolumeOptions volume;
     std::vector<RegionForce> forces;
 };
 
-/// One piece of cloth, or the skin of a soft body: its shape at rest, its material, what holds it.
+/// One piece of cloth, or the surface of a soft body: rest shape, material and pins.
 struct PLIANT_API Cloth {
     static Cloth sheet(const SheetOptions& options);
     static Cloth mesh(SurfaceMesh mesh, const MeshOptions& options = {});
@@ -253,39 +253,39 @@ struct PLIANT_API Cloth {
         pins.push_back(attachment);
         return *this;
     }
-    /// Sets density and springs to those of a material, with bend_model quadratic; what is set afterwards
-    /// goes before it. With the method constraint structural springs do not give more than the material does.
+    /// Sets density and springs to those of a material, with bend_model quadratic; later assignments override
+    /// it. With the method constraint, structural springs have the material's extensibility.
     Cloth& make_of(Material given);
 
     std::string name = "cloth";
     std::variant<SheetOptions, SurfaceMesh, DiscOptions> shape;
-    /// kg/m2; a sheet shares its mass equally, a mesh by the area around a vertex. 0.3 when neither this nor
-    /// node_mass is set. The one of SheetOptions or DiscOptions is moved here by `sheet` or `disc`; in
-    /// `shape` itself it must stay empty.
+    /// kg/m2; a sheet distributes its mass equally, a mesh by the area around a vertex. 0.3 if neither this
+    /// nor node_mass is set. `sheet` and `disc` move the density of their options here; in `shape` itself it
+    /// must be empty.
     std::optional<double> density;
     std::optional<double> node_mass;     ///< kg per node, instead of density
-    Material material = Material::none;  ///< set by `make_of`; what is stepped are density and springs
+    Material material = Material::none;  ///< set by `make_of`; only density and springs are used
     double scale = 1.0;                  ///< of a mesh
-    Vec3d position;                      ///< m, where the origin of the shape (the centre of a sheet) is put
+    Vec3d position;                      ///< m, place of the shape's origin (the centre of a sheet)
     Vec3d rotation;                      ///< degrees about x, then y, then z
     Vec3d velocity;                      ///< m/s, of every node at the start
     Springs springs;
     Formulation formulation = Formulation::automatic;
-    double damping = 0.1;      ///< 1/s; every velocity loses this fraction a second
-    double thickness = 0.002;  ///< m; the distance that contact keeps between a node and a collider
+    double damping = 0.1;      ///< 1/s; every velocity loses this fraction per second
+    double thickness = 0.002;  ///< m; distance that contact keeps between a node and a collider
     std::vector<Attachment> pins;
     std::optional<BodyOptions> body;  ///< of a soft body
 };
 
-/// What a collider does with a node that enters it.
+/// The response of a collider to a node that enters it.
 enum class ContactResponse {
-    coulomb,  ///< remove the approaching normal velocity, Coulomb friction, keep the rest
-    paper,    ///< Algorithm 4 of the cloth paper as printed (its velocity has no units; see docs/physics.md)
+    coulomb,  ///< removes the approaching normal velocity, applies Coulomb friction, keeps the rest
+    paper,    ///< Algorithm 4 of the cloth paper as printed (its result does not have the unit of a velocity;
+              ///< see docs/physics.md)
 };
 
-// friction: Coulomb coefficient, 0 to 10. keyframes: empty, and it stands still.
-// The shapes are written so that designated initialisers read well: {.centre = {0, 0.4, 0}, .radius = 0.3,
-// .friction = 0.4}
+// friction: Coulomb's coefficient, 0 to 10. keyframes: empty: it does not move. The shapes are aggregates for
+// designated initialisers: {.centre = {0, 0.4, 0}, .radius = 0.3, .friction = 0.4}
 struct Sphere {
     Vec3d centre = {};    ///< m
     double radius = 0.5;  ///< m
@@ -293,10 +293,10 @@ struct Sphere {
     ContactResponse response = ContactResponse::coulomb;
     std::vector<Keyframe> keyframes = {};
 };
-/// Everything behind the plane (against its normal) is solid.
+/// A half-space: everything on the side against the normal is solid.
 struct Plane {
     Vec3d point = {};          ///< m
-    Vec3d normal = {0, 1, 0};  ///< need not be of length 1
+    Vec3d normal = {0, 1, 0};  ///< any length
     double friction = 0.3;
     ContactResponse response = ContactResponse::coulomb;
     std::vector<Keyframe> keyframes = {};
@@ -328,90 +328,90 @@ struct TaperedCapsule {
 };
 using Collider = std::variant<Sphere, Plane, Box, Capsule, TaperedCapsule>;
 
-/// Moving air; forces per triangle by its velocity against the air. Off while `density` is 0.
+/// Moving air: forces on triangles by their velocity relative to the air. Off if `density` is 0.
 struct Air {
     Vec3d velocity = {};  ///< m/s, the wind
     double density = 0;   ///< kg/m3; 1.2 for air
     double drag = 1.0;    ///< coefficient, along the relative wind
-    double lift = 0.5;    ///< coefficient, across it
+    double lift = 0.5;    ///< coefficient, across the relative wind
 };
 
-/// What conjugate gradients go by in the solver newton_multigrid.
+/// The preconditioner of conjugate gradients in the solver newton_multigrid.
 enum class Preconditioner {
     multigrid,  ///< a V-cycle over a hierarchy of coarser cloths
-    jacobi,     ///< each node's own block alone; to compare with
-    none,       ///< plain conjugate gradients; to compare with
+    jacobi,     ///< the diagonal blocks alone; for comparison
+    none,       ///< plain conjugate gradients; for comparison
 };
 
-/// How the solver newton_multigrid keeps limits.
+/// How the solver newton_multigrid enforces limits.
 enum class Enforcement {
-    multiplier,  ///< each spring remembers its force from step to step, and a soft stiffness corrects it
-    penalty,     ///< by the stiffness 1 / compliance alone; to compare with
+    multiplier,  ///< each spring keeps its force from step to step, and a soft stiffness corrects it
+    penalty,     ///< by the stiffness 1 / compliance alone; for comparison
 };
 
 /// The solver newton_multigrid: each step minimises its incremental potential (Martin et al. 2011,
 /// Example-Based Elastic Materials, section 4) by Newton's method.
 struct NewtonMultigridOptions {
-    std::uint32_t newton_iterations = 8;  ///< 1 to 1000: at most, in a step; of ACAD, four times as
-                                          ///< many. Three times as many while the residual is above 1
-    /// 0 to 1: a step is solved when its residual has fallen to this fraction of the step's load (what
-    /// inertia and gravity ask of it), both in the norm of the energy; 0 never stops early.
+    std::uint32_t newton_iterations = 8;  ///< 1 to 1000: maximum per step; for ACAD four times as many. Three
+                                          ///< times as many while the residual is above 1
+    /// 0 to 1: a step is solved if its residual has fallen to this fraction of the step's load (what inertia
+    /// and gravity ask of it), both in the norm of the energy; 0 never stops early.
     double newton_tolerance = 0.3;
-    std::uint32_t linear_iterations = 4;  ///< 1 to 10,000 V-cycles: at most, in a Newton iteration
-    double linear_tolerance = 0.2;  ///< 0 to 1: the same for each linear system, against the smaller of the
-                                    ///< load and its own residual
-    /// 0 to 8: how often the steps of a frame are cut in three where one was not solved (a residual above
-    /// 1).
+    std::uint32_t linear_iterations = 4;  ///< 1 to 10,000: maximum V-cycles per Newton iteration
+    double linear_tolerance = 0.2;  ///< 0 to 1: the same for each linear system, relative to the smaller of
+                                    ///< the load and its own initial residual
+    /// 0 to 8: how many times the steps of a frame may be divided by three if one was not solved (a residual
+    /// above 1).
     std::uint32_t step_cuts = 2;
     std::uint32_t smoothing = 1;  ///< 1 to 8: degree of the smoother before and after each level
-    /// 1 or 2, of a step in time. 1: implicit Euler, which takes a swing away. 2: BDF2, the backward
-    /// differentiation formula of two steps, which hardly does, for steps as long as the one before; others,
-    /// and those of nodes that touch a collider, are of order 1. Tolerances count a third at order 2.
+    /// 1 or 2, order in time. 1: implicit Euler, which damps oscillations strongly. 2: BDF2, the two-step
+    /// backward differentiation formula, which hardly damps them. It needs steps of equal length; other
+    /// steps, and those of nodes in contact, are of order 1. At order 2 tolerances are a third.
     std::uint32_t order = 1;
     Preconditioner preconditioner = Preconditioner::multigrid;
     Enforcement enforcement = Enforcement::multiplier;
     Resists resists = Resists::tension;  ///< of all constraints
     /// N/m, 0 to 1e9: of a node against a collider; 0: a hundred times its mass over the step squared. It
-    /// only corrects the normal force, which each node remembers from step to step.
+    /// only corrects the normal force, which each node keeps from step to step.
     double contact_stiffness = 0;
     /// m/s, above 0 to 1: below this speed of sliding, friction grows linearly with it; Coulomb's law
     /// regularised as by Li et al. 2020, Incremental Potential Contact, section 5.
     double friction_speed = 1e-3;
 };
 
-/// The solver paper: conjugate gradients on the system of the Lagrange multipliers (Va, Choi, Hong 2021).
+/// The paper's solver: conjugate gradients on the system of the Lagrange multipliers (Va, Choi, Hong 2021).
 struct PaperOptions {
     double tolerance = 1e-4;             ///< above 0 to 1: relative residual at which a step is solved
     std::uint32_t max_iterations = 200;  ///< 1 to 100,000: of conjugate gradients, in a step
-    double compliance = 0;               ///< m/N, 0 to 1: of every constraint; 0: they do not give at all
+    double compliance = 0;               ///< m/N, 0 to 1: of every constraint; 0: inextensible
 };
 
-/// To which length an active constraint of the method acad pulls its spring.
+/// The length to which an active constraint of the method acad pulls its spring.
 enum class AcadTarget {
     threshold,  ///< the length at which it became one, l0 (1 + activate_at)
-    rest,       ///< the length at rest, l0
+    rest,       ///< the rest length, l0
 };
-/// The method acad: a spring that is stretched too far is a constraint in that step.
+/// The method acad: a spring that is too long is a constraint in that step.
 struct AcadOptions {
-    double activate_at = 0.10;  ///< above 0 to 1: stretch (l - l0) / l0 beyond which a spring is a constraint
-    /// 0 to activate_at, which is the default: stretch below which a constraint becomes a spring again. A gap
+    double activate_at = 0.10;  ///< above 0 to 1: strain (l - l0) / l0 beyond which a spring is a constraint
+    /// 0 to activate_at, which is the default: strain below which a constraint becomes a spring again. A gap
     /// between the two keeps springs from switching in every step.
     std::optional<double> deactivate_at = {};
-    bool compression = false;  ///< springs that are compressed by more than activate_at, too
+    bool compression = false;  ///< also springs that are compressed by more than activate_at
     AcadTarget target = AcadTarget::threshold;
     double compliance = 1e-6;  ///< m/N, 1e-9 to 1: of an active constraint
 };
 
-/// Length and resolution of time.
+/// Duration and time steps.
 struct TimeOptions {
     double duration = 5.0;     ///< s, of a run from the command line
-    double frame_rate = 60.0;  ///< 1/s, pictures and statistics per second
-    /// Steps per frame; 0 chooses enough for stability. Steps of limits that remember are divided where
-    /// they would be longer than 1/20 s.
+    double frame_rate = 60.0;  ///< 1/s, frequency of pictures and statistics
+    /// Steps per frame; 0 chooses enough for stability. Steps with limits with memory are divided if they
+    /// would be longer than 1/20 s.
     std::uint32_t substeps = 0;
 };
 
-/// Where pictures are taken from, and how the cloth is coloured.
+/// The camera of pictures, and the colours of the cloth.
 enum class ClothColour { checker, strain };
 struct Camera {
     Vec3d position{1.6, 1.2, 2.2};  ///< m
@@ -422,14 +422,14 @@ struct Camera {
     ClothColour colour = ClothColour::checker;
 };
 
-/// A scene's own check: `value` names a number of the summary, which must lie in [min, max] after the whole
+/// A check of the scene: `value` names a number of the summary, which must be in [min, max] after the whole
 /// run.
 struct Check {
     std::string value;
     double min = 0, max = 0;
 };
 
-/// Names a cloth of a scene, and lets it be changed further. Valid as long as the scene lives.
+/// Refers to a cloth of a scene, and allows further changes. Valid as long as the scene lives.
 class PLIANT_API ClothHandle {
 public:
     ClothHandle& pin(const Attachment& attachment);
@@ -444,7 +444,7 @@ private:
     std::size_t index_;
 };
 
-/// Everything a simulation starts from.
+/// The complete input of a simulation.
 class PLIANT_API Scene {
 public:
     ClothHandle add(Cloth cloth);
@@ -457,8 +457,8 @@ public:
     std::string name = "scene";
     std::string description;
     Method method = Method::mass_spring;
-    Integrator integrator = Integrator::symplectic_euler;  ///< of the method mass_spring
-    Solver solver = Solver::newton_multigrid;              ///< of the methods constraint and acad
+    Integrator integrator = Integrator::symplectic_euler;  ///< for the method mass_spring
+    Solver solver = Solver::newton_multigrid;              ///< for the methods constraint and acad
     NewtonMultigridOptions newton_multigrid;
     PaperOptions paper;
     AcadOptions acad;
@@ -480,8 +480,7 @@ private:
     std::vector<std::unique_ptr<Cloth>> cloths_;  // by pointer, so that handles survive further add()s
 };
 
-/// Throws Error(bad_input) for the first value that is out of its range; the message names the field as a
-/// JSON path.
+/// Throws Error(bad_input) for the first value out of range; the message names the field as a JSON path.
 PLIANT_API void validate(const Scene& scene);
 
 /// Reads a scene file, or a built-in scene by its name. `overrides` are "path=value" as in `--set
@@ -489,7 +488,7 @@ PLIANT_API void validate(const Scene& scene);
 /// valid name.
 PLIANT_API Scene read_scene(const std::string& file_or_name, const std::vector<std::string>& overrides = {});
 
-/// As a scene file writes it.
+/// The name in a scene file.
 PLIANT_API const char* name_of(Method method);
 PLIANT_API const char* name_of(Integrator integrator);
 PLIANT_API const char* name_of(Solver solver);

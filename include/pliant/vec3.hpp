@@ -1,15 +1,15 @@
-// Vectors of three as the public interface passes them: positions (m), velocities (m/s), ...
+// Three-component vectors of the public interface: positions (m), velocities (m/s), ...
 #pragma once
 
 namespace pliant {
 
-/// Three floats, tightly packed; arrays of it are what `Simulation::positions` returns.
+/// Three floats, tightly packed; the element type of `Simulation::positions`.
 struct Vec3 {
     float x = 0, y = 0, z = 0;
     friend bool operator==(const Vec3&, const Vec3&) = default;
 };
 
-/// Three doubles, for everything a person writes: scene files are kept exactly as they were typed.
+/// Three doubles, for parameters: the numbers of scene files are kept exactly.
 struct Vec3d {
     double x = 0, y = 0, z = 0;
     friend bool operator==(const Vec3d&, const Vec3d&) = default;

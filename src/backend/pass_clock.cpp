@@ -20,7 +20,7 @@ void PassClock::times(std::vector<PassTime>& into) const
     for (const PassTime& time : times_) {
         if (time.calls == 0) continue;
         if (count == into.size()) into.emplace_back();
-        into[count++] = time;  // a name's memory is used again
+        into[count++] = time;  // reuses the memory of names
     }
     into.resize(count);
 }

@@ -1,5 +1,4 @@
-// The one interface of all backends: hold the state of some cloths, run programs on it, give it back when
-// asked.
+// The interface of all backends: they store the state of cloths, run programs on it, and return it.
 #pragma once
 
 #include <cstdint>
@@ -15,22 +14,21 @@
 
 namespace pliant {
 
-/// What changes from frame to frame.
+/// The inputs that change from frame to frame.
 struct FrameInput {
     double step_length = 0;  ///< s
     std::uint32_t collider_count = 0;
-    std::span<const PlacedCollider>
-        colliders;               ///< collider_count for each step, or once when `colliders_rest`
-    bool colliders_rest = true;  ///< the same at every step
-    /// By cloth: where its attached nodes are, a row for each step; none where the program attaches nothing.
+    std::span<const PlacedCollider> colliders;  ///< collider_count for each step, or once if `colliders_rest`
+    bool colliders_rest = true;                 ///< the same at every step
+    /// By cloth: positions of its attached nodes, a row per step; empty if the program attaches nothing.
     std::span<const std::vector<Vec3>> attached = {};
-    /// By cloth: what is wanted of its bodies at the end of each step, or once where that does not change;
-    /// see BodyModel::goal_at. Empty: what is wanted at the start.
+    /// By cloth: targets of its bodies at the end of each step, or once if they do not change; see
+    /// BodyModel::goal_at. Empty: the targets at the start.
     std::span<const std::vector<VolumeGoal>> goals = {};
-    GrabInput grab = {};  ///< what a hand does to one of the cloths, if it has hold of one
+    GrabInput grab = {};  ///< the pull of a hand on one of the cloths, if any
     GrabInput grab_of(std::size_t cloth) const { return grab.cloth == cloth ? grab : GrabInput{}; }
 
-    /// Colliders at the end of a step of the frame; the calls that know no collider may ask with any index.
+    /// Colliders at the end of a step of the frame; calls without colliders may pass any index.
     std::span<const PlacedCollider> colliders_at(std::uint32_t step) const
     {
         const std::size_t first = colliders_rest ? 0 : std::size_t{step} * collider_count;
@@ -60,22 +58,22 @@ class PassRunner {
 public:
     virtual ~PassRunner() = default;
 
-    /// Runs the calls in order. Throws only when a device is lost.
+    /// Runs the calls in order. Throws only if a device is lost.
     virtual void run(const Program& program, const FrameInput& input) = 0;
 
-    /// What the last program with this among its `keeps` has kept is what counts again.
+    /// Restores what the last program with this among its `keeps` has saved.
     virtual void put_back(const Kept& kept) = 0;
 
-    /// Copies a resource into floats, as many per entry as Resource documents, in node, spring or level
-    /// order.
+    /// Copies a resource into floats, as many per entry as Resource documents, in the order of nodes, springs
+    /// or levels.
     virtual void read(std::uint32_t cloth, Resource resource, std::uint32_t parity,
                       std::vector<float>& values) = 0;
     /// Replaces the positions (m, in the cloth's coordinates) and velocities (m/s) of all nodes of a cloth.
     virtual void write(std::uint32_t cloth, std::span<const Vec3> positions,
                        std::span<const Vec3> velocities) = 0;
-    /// Takes over the mass that the cloth's model has of a node now.
+    /// Copies the present mass of a node from the cloth's model.
     virtual void take_mass(std::uint32_t cloth, std::uint32_t node) = 0;
-    /// The root of the tree of measures after a program that computed it.
+    /// The root of the tree of measures, after a program that computed it.
     virtual MeasureTotals measures(std::uint32_t cloth) = 0;
 
     /// 6 V in m3 of a body of a cloth, after a program that measured it.
@@ -83,7 +81,7 @@ public:
 
     /// A scalar of a cloth's constraint solver, by its number in kernels/planes.kernel.glsl.
     virtual double solver_scalar(std::uint32_t cloth, std::size_t number) = 0;
-    /// Numbers of the arena of a cloth's constraint solver, see Hierarchy. `values` keeps its memory.
+    /// Numbers of the arena of a cloth's constraint solver, see Hierarchy. Reuses the memory of `values`.
     virtual void solver_numbers(std::uint32_t cloth, std::size_t first, std::size_t count,
                                 std::vector<float>& values) = 0;
     virtual void write_solver_numbers(std::uint32_t cloth, std::size_t first,

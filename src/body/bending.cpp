@@ -7,7 +7,7 @@
 namespace pliant {
 namespace {
 
-/// The part of an inner row or column that belongs to this one.
+/// The part of a row's or column's area that belongs to it: half at a border.
 double part_of(std::uint32_t k, std::uint32_t count) { return k == 0 || k + 1 == count ? 0.5 : 1; }
 
 struct GridSpring {
@@ -54,8 +54,7 @@ struct Point2 {
 Point2 operator-(Point2 a, Point2 b) { return {a.x - b.x, a.y - b.y}; }
 double cotangent(Point2 a, Point2 b) { return (a.x * b.x + a.y * b.y) / std::abs(a.x * b.y - a.y * b.x); }
 
-/// A triangle and those at its sides, unfolded into its plane: what the bend of its sides says of its
-/// curvature.
+/// A triangle and its neighbours, unfolded into its plane: gives its curvature from the bends of its sides.
 class BentTriangle {
 public:
     BentTriangle(const Triangle& triangle, std::uint32_t index, const std::vector<TriangleSide>& sides,
@@ -87,14 +86,14 @@ public:
             const Vec3d side = at(j) - at(i), wing = at(other->opposite) - at(i);
             const double l = std::sqrt(dot(side, side)), t = dot(wing, side) / l;
             const double h = std::sqrt(std::max(0.0, dot(wing, wing) - t * t));
-            // Outside is to the right of a side, the corners being counter-clockwise.
+            // With counter-clockwise corners, outside is to the right of a side.
             const Point2 far{p.x + (t * edge.x + h * edge.y) / l, p.y + (t * edge.y - h * edge.x) / l};
             if (h > 1e-6 * l) add_side(k, (k + 1) % 3, (k + 2) % 3, other->opposite, far);
         }
     }
 
-    /// E = B/2 A |S|^2 of the least curvature S that bends the sides as they are bent: where all three are,
-    /// the one that does; at a border, where one side or two say nothing, the one without a moment there.
+    /// E = B/2 A |S|^2 for the smallest curvature S that gives the sides their bends. With three bends S is
+    /// unique; at a border, with one or two, it is the one without a moment at the free sides.
     void add(double bending_stiffness, std::vector<PairWeight>& weights) const
     {
         const std::size_t count = bends_.size();
@@ -129,7 +128,7 @@ public:
     }
 
 private:
-    /// How much a side is bent, sum c_a x_a over the nodes, which for x = 1/2 r . S r is m . (S11, S12, S22).
+    /// The bend of a side, sum c_a x_a over the nodes; for x = 1/2 r . S r it is m . (S11, S12, S22).
     struct Bend {
         std::array<double, 6> c{};
         std::array<double, 3> m{};
@@ -173,7 +172,7 @@ void add_bending(std::vector<Spring>& springs, const SheetShape& sheet, double b
     const double row_weight = bending_stiffness * dz / (dx * dx * dx);
     const double column_weight = bending_stiffness * dx / (dz * dz * dz);
     const double twist_weight = 2 * bending_stiffness / (dx * dz);
-    // Of an edge between places k and k + 1 of `count`: how many threes have it, and how many cells.
+    // For an edge between places k and k + 1 of `count`: in how many triples and cells it occurs.
     const auto threes = [](std::uint32_t k, std::uint32_t count) {
         return (k > 0 ? 1.0 : 0.0) + (k + 2 < count ? 1.0 : 0.0);
     };
@@ -182,8 +181,8 @@ void add_bending(std::vector<Spring>& springs, const SheetShape& sheet, double b
     };
     for (Spring& spring : springs) {
         const GridSpring at(spring, sheet);
-        // (a - 2 b + c)^2 = 2 (a - b)^2 + 2 (b - c)^2 - (a - c)^2, and of a cell the sides have + and the
-        // diagonals -.
+        // (a - 2 b + c)^2 = 2 (a - b)^2 + 2 (b - c)^2 - (a - c)^2; in a cell the sides have a plus and the
+        // diagonals a minus.
         const double row = row_weight * part_of(at.row, sheet.rows);
         const double column = column_weight * part_of(at.column, sheet.columns);
         if (spring.spring_class == SpringClass::shear)
@@ -210,8 +209,8 @@ void add_bending(std::vector<Spring>& springs, std::span<const Triangle> triangl
     }
     std::sort(weights.begin(), weights.end(),
               [](const PairWeight& a, const PairWeight& b) { return a.i != b.i ? a.i < b.i : a.j < b.j; });
-    // Springs are in the same order: both are gone through once. A pair that is no spring becomes one, which
-    // has nothing but its weight.
+    // Both lists have the same order and are merged. A pair without a spring becomes a spring with a bending
+    // weight alone.
     const std::size_t known = springs.size();
     std::size_t s = 0;
     for (const PairWeight& pair : weights) {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
 
-/// Ten bits of a number, two zeros between each.
+/// Spreads ten bits, with two zeros between neighbours.
 std::uint32_t spread_bits(std::uint32_t a)
 {
     a = (a | a << 16) & 0x030000ffu;
@@ -41,7 +41,7 @@ Vec3d mean_of(std::span<const Vec3> positions)
     return positions.empty() ? sum : sum * (1.0 / static_cast<double>(positions.size()));
 }
 
-/// Area vectors of the triangles around each vertex, of length 1.
+/// Normalised sums of the area vectors around each vertex.
 std::vector<Vec3d> vertex_normals(std::span<const Vec3> positions, std::span<const Triangle> triangles)
 {
     std::vector<Vec3d> normals(positions.size());
@@ -57,7 +57,7 @@ std::vector<Vec3d> vertex_normals(std::span<const Vec3> positions, std::span<con
     return normals;
 }
 
-/// Where a ray leaves the surface first: its distance, or infinity. Moeller and Trumbore, "Fast, minimum
+/// Distance at which a ray first leaves the surface, or infinity. Moeller and Trumbore, "Fast, minimum
 /// storage ray/triangle intersection", 1997.
 double exit_distance(Vec3d from, Vec3d direction, std::uint32_t start, std::span<const Vec3> positions,
                      std::span<const Triangle> triangles)
@@ -73,7 +73,7 @@ double exit_distance(Vec3d from, Vec3d direction, std::uint32_t start, std::span
         const Vec3d s = from - a, q = cross(s, ab);
         const double u = dot(s, p) / determinant, v = dot(direction, q) / determinant;
         const double distance = dot(ac, q) / determinant;
-        constexpr double edge = 1e-9;  // a ray through an edge hits one of its triangles at least
+        constexpr double edge = 1e-9;  // a ray through an edge must hit at least one of its triangles
         if (u < -edge || v < -edge || u + v > 1 + edge || distance <= 0) continue;
         nearest = std::min(nearest, distance);
     }
@@ -112,7 +112,7 @@ std::vector<TimedValue> gradual_target(const std::vector<TimedValue>& target)
 {
     if (target.empty() || value_at(target, 0, 1) == 1) return target;
     std::vector<TimedValue> gradual = {{0, 1}};
-    for (std::size_t k = 0;; ++k) {  // the stretch up to target[k], and the one behind the last
+    for (std::size_t k = 0;; ++k) {  // the interval before target[k], and the one after the last
         const bool last = k == target.size();
         if (!last && !(target[k].time > 0)) continue;
         const auto [time, value] = gradual.back();
@@ -167,7 +167,7 @@ std::vector<std::uint32_t> node_order(const SurfaceMesh& mesh)
         for (const std::uint32_t node : t) ++valence[node];
     order.reserve(count);
     for (const auto& [code, vertex] : places) order.push_back(vertex);
-    // Within a block its nodes lie close anyway; rings of one length fill the lanes of a pack.
+    // Nodes of a block are close together anyway; rings of equal length fill the lanes of a pack.
     constexpr std::uint32_t block = BodyBlock::most;
     for (std::uint32_t first = 0; first < count; first += block)
         std::stable_sort(order.begin() + first, order.begin() + std::min(first + block, count),
@@ -204,8 +204,8 @@ Ragged<std::uint32_t> rings_of(std::uint32_t node_count, std::span<const Triangl
 Ragged<std::uint32_t> fans_of(const Ragged<std::uint32_t>& rings)
 {
     const auto count = static_cast<std::uint32_t>(rings.row_count());
-    // Entry k of the ring of a stands for the triangle (a, b_k, b_k+1); it is in the rings of b_k and b_k+1,
-    // too.
+    // Entry k of the ring of a stands for the triangle (a, b_k, b_k+1), which also occurs in the rings of b_k
+    // and b_k+1.
     std::vector<bool> taken(rings.entries.size(), false);
     const auto next_in = [&](std::uint32_t node, std::uint32_t k) {
         return k + 1 < rings.start[node + 1] ? k + 1 : rings.start[node];
@@ -226,17 +226,17 @@ Ragged<std::uint32_t> fans_of(const Ragged<std::uint32_t>& rings)
     for (std::uint32_t node = 0; node < count; ++node) left[node] = count_left(node);
     const auto most_left = [&] { return left.empty() ? 0u : *std::max_element(left.begin(), left.end()); };
 
-    // Greedy: always a node with the most triangles that are left; each run of them is a fan.
+    // Greedy: take a node with the most remaining triangles; each run of them is a fan.
     std::vector<std::vector<std::uint32_t>> fans;
-    // `left` never says too little, so that the next number worth a sweep is the largest in it: below a node
-    // of thousands of triangles there may be none of hundreds.
+    // `left` is an upper bound, so its maximum is the next count to search for. Below a node of thousands of
+    // triangles there may be none of hundreds.
     for (std::uint32_t wanted = most_left(); wanted > 0; wanted = most_left())
         for (std::uint32_t node = 0; node < count; ++node) {
             if (left[node] < wanted) continue;
             left[node] = count_left(node);
             if (left[node] < wanted) continue;
             const std::uint32_t begin = rings.start[node], end = rings.start[node + 1], length = end - begin;
-            std::uint32_t first = 0;  // a run starts behind one that is taken
+            std::uint32_t first = 0;  // a run starts after a triangle that is taken
             while (first < length && !taken[begin + first]) ++first;
             if (first == length) first = length - 1;
             std::vector<std::uint32_t> fan;
@@ -257,8 +257,7 @@ Ragged<std::uint32_t> fans_of(const Ragged<std::uint32_t>& rings)
             if (!fan.empty()) fans.push_back(std::move(fan));
             left[node] = 0;
         }
-    // As the nodes: near each other by their apexes, and within a block by their length, so that packs are
-    // full.
+    // Sorted as the nodes are: by apex, and within a block by length, so that packs are full.
     std::stable_sort(fans.begin(), fans.end(), [](const auto& a, const auto& b) { return a[0] < b[0]; });
     constexpr auto block = static_cast<std::ptrdiff_t>(BodyBlock::most);
     for (auto first = fans.begin(); first != fans.end();) {
@@ -302,8 +301,8 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> internal_pairs(std::span<co
             if (std::isfinite(distance)) choices[i].push_back(nearest_to(x + inward * distance, i));
             continue;
         }
-        // Nearest: those that a straight way through the inside can reach, both ends within 60 degrees of
-        // straight in.
+        // Candidates: nodes that a straight line through the inside reaches, within 60 degrees of the inward
+        // normal at both ends.
         constexpr double straight = 0.5;
         facing.clear();
         for (std::uint32_t j = 0; j < count; ++j) {

@@ -1,5 +1,5 @@
-// What a soft body has beyond a cloth: the ring of neighbours around each node, fans that cover its triangles
-// once, and the blocks of both that sums are made of.
+// The additional data of a soft body: the ring of neighbours around each node, fans that cover its triangles
+// once, and the blocks of both over which sums are taken.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace pliant {
 
-/// Up to 256 nodes, or fans, of one body: what one work group sums up.
+/// Up to 256 nodes, or fans, of one body, which one work group sums.
 struct BodyBlock {
     static constexpr std::uint32_t most = 256;  ///< of count
     std::uint32_t first = 0, count = 0, body = 0;
@@ -24,7 +24,7 @@ struct BodyPart {
     std::uint32_t first_block = 0, block_count = 0;          ///< in BodyModel::node_blocks
     std::uint32_t first_fan_block = 0, fan_block_count = 0;  ///< in BodyModel::fan_blocks
     double volume = 0;                                       ///< m3, at rest
-    double inverse_weight = 0;  ///< 1 / sum of the weights of free nodes; 0 where all weights are 1
+    double inverse_weight = 0;  ///< 1 / sum of the weights of free nodes; 0 if all weights are 1
     double inverse_fans = 0;    ///< 1 / number of its fans
     Vec3d centre;               ///< m, mean of its nodes at the start, in the model's coordinates
     VolumeOptions options;      ///< its keyframes and tolerance
@@ -37,27 +37,28 @@ struct LoadedNode {
     Vec3d torque;  ///< N/m
 };
 
-/// What there is to know at one step of a part: see `BodyModel::goal_at`.
+/// The target of a body in one step, see `BodyModel::goal_at`.
 struct VolumeGoal {
-    double volume = 0;    ///< 6 V that is wanted at the end of the step, m3
+    double volume = 0;    ///< 6 V wanted at the end of the step, m3
     double pressure = 0;  ///< a sixth of the pressure, Pa
 };
 
 struct BodyModel {
-    /// By node: the first of its SpringSet::neighbours that is across the inside. Those before it are the
-    /// ring around it, counter-clockwise seen from outside.
+    /// By node: index of the first of its ClothModel::neighbours that is an internal spring. Those before it
+    /// are the ring around the node, counter-clockwise seen from outside.
     std::vector<std::uint32_t> links;
-    /// Triangles that share a node: the node, and then those around it, one more than there are triangles.
+    /// Triangles that share a node: the node, then the ring of those around it, one more than there are
+    /// triangles.
     Ragged<std::uint32_t> fans;
     std::vector<BodyBlock> node_blocks, fan_blocks;
     std::vector<BodyPart> parts;
-    std::vector<float> weights;  ///< by node; empty where all are 1
+    std::vector<float> weights;  ///< by node; empty if all are 1
     std::vector<LoadedNode> loads;
-    bool constrained = false;  ///< keeps its volume
+    bool constrained = false;  ///< has the volume constraint
     bool has_pressure = false;
 
     double weight_of(std::size_t node) const { return weights.empty() ? 1.0 : double{weights[node]}; }
-    /// Volumes and pressures differ from step to step.
+    /// Whether target volumes or pressures change with time.
     bool goals_move() const;
     VolumeGoal goal_at(std::size_t part, double time) const;
     /// Appends another model of `count` nodes: its first becomes `node`, the first entry of its rows of
@@ -66,29 +67,30 @@ struct BodyModel {
                 Vec3d shift);
 };
 
-/// A value of keyframes at a time; `otherwise` where there are none.
+/// Interpolates keyframes at a time; returns `otherwise` if there are none.
 double value_at(const std::vector<TimedValue>& keyframes, double time, double otherwise);
 
-/// V / V0 a second: as fast as a body goes to the volume that it is given to begin with.
+/// V / V0 per second: the fastest change of volume towards the first target.
 constexpr double fastest_start = 2;
-/// A target as a body follows it: it starts at 1, at rest, and goes from there to what it is given.
+/// The target that a body follows: it starts at 1, at rest, and changes gradually to the given target.
 std::vector<TimedValue> gradual_target(const std::vector<TimedValue>& target);
 
-/// 6 V of triangles, exact but for the rounding of doubles, about the first vertex.
+/// 6 V of triangles, about the first vertex; exact up to rounding of doubles.
 double sixfold_volume(std::span<const Vec3> positions, std::span<const Triangle> triangles);
 
-/// The vertices of a mesh in an order in which neighbours are near each other and rings of one length side by
-/// side: at place k the vertex that becomes node k.
+/// An order of a mesh's vertices in which neighbours are close, and rings of equal length are side by side.
+/// Element k is the vertex that becomes node k.
 std::vector<std::uint32_t> node_order(const SurfaceMesh& mesh);
 
-/// The ring of neighbours around each node of a closed surface, counter-clockwise seen from outside, from the
-/// neighbour with the lowest index on.
+/// The ring of neighbours around each node of a closed surface, counter-clockwise seen from outside, starting
+/// at the neighbour of lowest index.
 Ragged<std::uint32_t> rings_of(std::uint32_t node_count, std::span<const Triangle> triangles);
 
-/// Fans that hold each triangle once, in the order of their apexes; of each 256 the longest first.
+/// Fans that contain each triangle once, in the order of their apexes; within each block of 256 the longest
+/// first.
 Ragged<std::uint32_t> fans_of(const Ragged<std::uint32_t>& rings);
 
-/// Pairs (i < j) of nodes that internal springs join, in ascending order.
+/// Pairs (i < j) of nodes that internal springs connect, in ascending order.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> internal_pairs(std::span<const Vec3> positions,
                                                                     std::span<const Triangle> triangles,
                                                                     const InternalSprings& options);

@@ -56,7 +56,7 @@ void ClothModel::step_acad_implicitly()
     }
 }
 
-/// At place k of `order` is the vertex that becomes node k.
+/// order[k] is the vertex that becomes node k.
 void ClothModel::renumber(const std::vector<std::uint32_t>& order)
 {
     shape.renumber(order);
@@ -67,7 +67,7 @@ void ClothModel::renumber(const std::vector<std::uint32_t>& order)
 
 double ClothModel::stable_step() const
 {
-    // Rows of M^-1 K and M^-1 C in 3 x 3 blocks have sums of norms of at most 2 sum k / m and 2 sum c / m.
+    // Row sums of norms of M^-1 K and M^-1 C, in 3 x 3 blocks, are at most 2 sum k / m and 2 sum c / m.
     std::vector<double> stiffness(node_count(), 0.0), damping(node_count(), 0.0);
     const auto add = [&](std::uint32_t i, std::uint32_t j, SpringClass spring_class, double scale,
                          double bending) {
@@ -94,7 +94,8 @@ double ClothModel::stable_step() const
         Integrator::explicit_euler)  // |1 + lambda dt| < 1 while dt < gamma / omega2, gamma >= d
         return omega2 > 0 ? parameters.damping / omega2 : std::numeric_limits<double>::infinity();
     if (plan.integrator == Integrator::runge_kutta_4) {
-        // Its region has all of the left half of the disc of this radius; |lambda| <= max(omega, gamma).
+        // The stability region contains the left half of the disc of this radius; |lambda| <= max(omega,
+        // gamma).
         constexpr double radius = 2.6;
         const double fastest = std::max(std::sqrt(omega2), gamma);
         return fastest > 0 ? radius / fastest : std::numeric_limits<double>::infinity();

@@ -36,9 +36,10 @@ public:
 
     std::uint32_t node_count() const { return static_cast<std::uint32_t>(masses.kg.size()); }
     bool feels_air() const { return parameters.air_density > 0; }
-    /// A step adds external_force to its nodes: wind, or the loads of a body.
+    /// Whether a step adds external_force to its nodes: wind, or the loads of a body.
     bool has_external_force() const { return feels_air() || (body && !body->loads.empty()); }
-    /// Largest safe step in s from Gershgorin's theorem: see docs/physics.md, "Stability".
+    /// The largest step in s that is certainly stable, by Gershgorin's theorem: see docs/physics.md,
+    /// "Stability".
     double stable_step() const;
 
     // Of a soft body: the neighbours around a node, and those across the inside.
@@ -53,9 +54,9 @@ public:
         return {rows.entries.data() + body->links[node], rows.entries.data() + rows.start[node + 1]};
     }
 
-    /// Whether another body can be stepped in the same passes: it is of the same material, and near.
+    /// Whether another body can be stepped in the same passes: it has the same material, and is near.
     bool can_take(const ClothModel& other) const;
-    /// Appends a body; it is then the last of `body->parts`.
+    /// Appends a body, as the last of `body->parts`.
     void take(const ClothModel& other);
 
 private:

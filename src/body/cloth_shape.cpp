@@ -10,8 +10,8 @@
 namespace pliant {
 namespace {
 
-/// Where a body's own coordinates begin: near its middle, on a grid as wide as the body, so that the same
-/// body at places of that grid is stepped with the same bits.
+/// The origin of a body's coordinates: near its middle, on a grid as wide as the body, so that equal bodies
+/// at points of that grid are stepped with equal bits.
 Vec3d origin_of(Vec3d least, Vec3d most)
 {
     const double extent = std::max({most.x - least.x, most.y - least.y, most.z - least.z, 1e-30});

@@ -24,7 +24,7 @@ public:
     std::vector<Vec3> velocities;          ///< m/s, at the start
     Ragged<std::uint32_t> node_triangles;  ///< of a mesh: per node the triangles around it, ascending
     Vec3d origin;                          ///< m; 0 but for a body
-    /// The node of each vertex of the mesh; empty where they are the same.
+    /// The node of each vertex of the mesh; empty if the order is the same.
     std::vector<std::uint32_t> node_of_vertex;
 
     bool is_sheet() const { return sheet.has_value(); }
@@ -33,18 +33,18 @@ public:
         return node_of_vertex.empty() ? vertex : node_of_vertex[vertex];
     }
     std::uint64_t triangle_count() const;
-    /// Triangles; those of a sheet are made when first asked for.
+    /// Triangles; a sheet's are made on first use.
     std::span<const Triangle> triangles() const;
     /// m: the longest side of the box around the nodes.
     double longest_side() const;
 
     /// The grid of a sheet says nothing about its springs any more: it is a mesh from here on.
     void become_mesh();
-    /// At place k of `order` is the vertex that becomes node k.
+    /// order[k] is the vertex that becomes node k.
     void renumber(std::span<const std::uint32_t> order);
     /// Appends the nodes and triangles of another body, whose positions are moved by `shift` (m).
     void append(const ClothShape& other, Vec3d shift);
-    /// Lets go of the positions and velocities at the start, once a backend has them.
+    /// Frees the initial positions and velocities, once a backend has copied them.
     void forget_start();
 
 private:

@@ -25,7 +25,7 @@ Rotation about_z(double angle)
     return {Vec3d{c, s, 0}, {-s, c, 0}, {0, 0, 1}};
 }
 
-/// A rotation that turns y into `direction`.
+/// A rotation that maps y to `direction`.
 Rotation frame_with_y(Vec3d direction)
 {
     const double length = std::sqrt(dot(direction, direction));
@@ -36,7 +36,7 @@ Rotation frame_with_y(Vec3d direction)
     return {cross(y, z), y, z};
 }
 
-// Where a shape is, and how large, before it moves.
+// Place and size of a shape before it moves.
 void put(PlacedCollider& placed, const Sphere& sphere)
 {
     placed.centre = sphere.centre;

@@ -11,13 +11,13 @@
 namespace pliant {
 namespace {
 
-/// Counts are kept in floats: on a device there is but one kind of number in the arena.
+/// Counts are stored as floats, the arena's only number type.
 constexpr std::size_t most_springs = std::size_t{1} << 24;
 
 bool may_be_constraint(const ClothModel& cloth, const Spring& spring)
 {
     const LimitedSprings& of_class = cloth.limits.of_class[static_cast<std::size_t>(spring.spring_class)];
-    // What two pins hold cannot move, and would be an equation without an unknown.
+    // A spring between two pins cannot move, and would give an equation without an unknown.
     const bool held = !(cloth.masses.inverse(spring.i) > 0) && !(cloth.masses.inverse(spring.j) > 0);
     return of_class.exists && of_class.beyond > 0 && !held;
 }
@@ -43,11 +43,11 @@ ConstraintRows::ConstraintRows(const ClothModel& cloth, std::size_t number_base)
     list_nodes(cloth);
     list_matrix(cloth);
     place_numbers(cloth);
-    constexpr std::size_t most_entries = 0x7fffffff;  // what an entry of the topology can say
+    constexpr std::size_t most_entries = 0x7fffffff;  // the largest entry of the topology
     refuse_if(topology.size() > most_entries || number_base + number_count_ > most_entries);
 }
 
-/// What follows in `topology` is the beginning of something.
+/// Records the present end of `topology` as the beginning of a table.
 std::int32_t ConstraintRows::begin(int header_entry)
 {
     return topology[static_cast<std::size_t>(header_entry)] = entry(topology.size());
@@ -75,7 +75,7 @@ void ConstraintRows::number_springs(const ClothModel& cloth)
         topology.push_back(entry(std::size_t(cloth.springs.list[s].spring_class)));
 }
 
-/// In the order in which a node of a spring list adds its springs.
+/// In the order in which list_step adds a node's springs.
 void ConstraintRows::list_nodes(const ClothModel& cloth)
 {
     constexpr std::int32_t none = -1;

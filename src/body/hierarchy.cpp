@@ -52,8 +52,8 @@ SolverLevel Hierarchy::append_level(std::int32_t rows, std::int32_t columns, std
     return level;
 }
 
-/// Rows and columns are halved until few are left; a coarse node lies on every other fine one, and one beyond
-/// the last when their number is even.
+/// Halves rows and columns until few are left. A coarse node lies on every other fine one; if their number is
+/// even, one coarse node lies beyond the last.
 void Hierarchy::build_sheet(const ClothModel& cloth)
 {
     constexpr std::int32_t few = 3;
@@ -69,7 +69,7 @@ void Hierarchy::build_sheet(const ClothModel& cloth)
     } while (rows > few || columns > few);
 }
 
-/// One for each row of a sheet's level, or for each group of a mesh's nodes and of its edges.
+/// One flag for each row of a sheet's level, or for each group of a mesh's nodes and edges.
 void Hierarchy::append_live_flags()
 {
     const auto append = [this](std::int32_t count) {
@@ -83,7 +83,7 @@ void Hierarchy::append_live_flags()
     }
 }
 
-/// The paper's solver: the cloth alone, and patterns over its springs.
+/// The paper's solver: only the cloth's level, and patterns over its springs.
 void Hierarchy::build_rows(const ClothModel& cloth)
 {
     const bool sheet = cloth.plan.on_grid;

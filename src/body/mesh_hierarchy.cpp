@@ -12,13 +12,13 @@
 namespace pliant {
 namespace {
 
-/// A coupling counts for shape and smoothing of aggregates when it is at least this part of the strongest one
+/// A coupling counts as strong in aggregation and smoothing if it is at least this part of the strongest one
 /// at either of its ends.
 constexpr double strong_part = 0.1;
 
 constexpr std::uint32_t nowhere = ~0u;
 
-/// Rows from entries that name their row: keeps the order within a row.
+/// Groups entries into rows by the row that each names; keeps the order within a row.
 template <class Entry, class RowOf, class EntryOf, class Source>
 Ragged<Entry> rows_of(std::size_t row_count, const std::vector<Source>& sources, RowOf&& row_of,
                       EntryOf&& entry_of)
@@ -60,8 +60,7 @@ Ragged<StrongNeighbour> strong_neighbours(const MeshGraph& graph)
         });
 }
 
-/// The aggregate of each node, numbered in the order of their first members; `nowhere` for nodes without
-/// neighbours.
+/// The aggregate of each node, numbered in the order of their first members; `nowhere` for isolated nodes.
 struct Aggregates {
     std::uint32_t count = 0;
     std::vector<std::uint32_t> of;
@@ -80,7 +79,7 @@ Aggregates aggregated(const Ragged<StrongNeighbour>& neighbours)
         for (const StrongNeighbour& n : row) a.of[n.node] = a.count;
         ++a.count;
     }
-    // What is left has a neighbour in an aggregate, or it would have become a root itself.
+    // The remaining nodes have a neighbour in an aggregate, or they would have become roots.
     const std::vector<std::uint32_t> roots = a.of;
     for (std::uint32_t i = 0; i < node_count; ++i) {
         if (roots[i] != nowhere) continue;
@@ -94,8 +93,8 @@ Aggregates aggregated(const Ragged<StrongNeighbour>& neighbours)
     return a;
 }
 
-/// The largest eigenvalue of D^-1 L, from below; L is the Laplacian of the strong couplings, D its diagonal.
-/// At most 2.
+/// The largest eigenvalue of D^-1 L, estimated from below, at most 2; L is the Laplacian of the strong
+/// couplings, D its diagonal.
 double largest_eigenvalue(const Ragged<StrongNeighbour>& neighbours)
 {
     const std::size_t count = neighbours.start.size() - 1;
@@ -127,8 +126,8 @@ double largest_eigenvalue(const Ragged<StrongNeighbour>& neighbours)
     return eigenvalue;
 }
 
-/// P = (I - w D^-1 L) P0, where P0 is 1 for a node in its aggregate: rows sum up to 1, because those of L do
-/// to 0.
+/// P = (I - w D^-1 L) P0, where P0 is 1 for a node in its aggregate. Rows sum to 1, since those of L sum to
+/// 0.
 Ragged<WeightedSource> parents_of(const Ragged<StrongNeighbour>& neighbours, const Aggregates& aggregates)
 {
     const double eigenvalue = largest_eigenvalue(neighbours);
@@ -164,13 +163,13 @@ Ragged<WeightedSource> parents_of(const Ragged<StrongNeighbour>& neighbours, con
     return parents;
 }
 
-/// A part of the coarse operator: so much of a fine block goes into the coupling of coarse nodes i < j.
+/// A term of the coarse operator: the part of a fine block in the coupling of coarse nodes i < j.
 struct Share {
     std::uint32_t i = 0, j = 0, source = 0;
     double weight = 0;
 };
 
-/// What P makes of the energy of the fine level (Galerkin), written with differences as the energy itself is:
+/// Galerkin: P applied to the energy of the fine level, written with differences as that energy is:
 ///   B(I, J) = -sum_e (P_iI - P_jI) (P_iJ - P_jJ) B_e - sum_i P_iI P_iJ s_i,   s(I) = sum_i P_iI s_i
 /// and the diagonal is D(I) = s(I) + sum_J B(I, J).
 std::vector<Share> shares_of(const MeshGraph& fine, const Ragged<WeightedSource>& parents)
@@ -247,8 +246,8 @@ namespace {
 
 bool is_free(const ClothModel& cloth, std::uint32_t node) { return cloth.masses.inverse(node) > 0; }
 
-/// The spring between two nodes, as a place in cloth.springs: one of a class that does something, and moves a
-/// node. `nowhere` when there is none.
+/// Index in cloth.springs of the spring between two nodes, if its class is not off and one of them is free;
+/// else `nowhere`.
 std::uint32_t spring_between(const ClothModel& cloth, std::uint32_t a, std::uint32_t b)
 {
     const std::uint32_t i = std::min(a, b), j = std::max(a, b);
@@ -261,15 +260,15 @@ std::uint32_t spring_between(const ClothModel& cloth, std::uint32_t a, std::uint
     return static_cast<std::uint32_t>(found - cloth.springs.list.begin());
 }
 
-/// A bend spring (a, d) about the side (b, c), and the springs from a to b, or c, and on to d.
+/// A bend spring (a, d) about the side (b, c), and the springs from a to b or c, and from there to d.
 struct Fold {
     std::uint32_t spring = 0, halves[2]{};
 };
 
-/// Bend springs that the operator has folded onto sides of their two triangles, as that of a sheet has them
-/// on their two halves: |x_a - x_d|^2 <= 2 (|x_a - x_b|^2 + |x_b - x_d|^2), so that it is no softer than E.
-/// They go by b and by c in turn, as the numbers of the four nodes say. That halves the couplings of a
-/// mesh. Where bending is a limit or has numbers of its own, nothing is folded.
+/// Bend springs that the operator folds onto sides of their two triangles, as on a sheet onto the two halves:
+/// |x_a - x_d|^2 <= 2 (|x_a - x_b|^2 + |x_b - x_d|^2), so it is no softer than E. They go through b or c in
+/// turn, chosen by the numbers of the four nodes. Folding halves the couplings of a mesh. Nothing is folded
+/// where bend springs are limits or graded.
 std::vector<Fold> folds_of(const ClothModel& cloth)
 {
     std::vector<Fold> folds;
@@ -297,7 +296,7 @@ std::vector<Fold> folds_of(const ClothModel& cloth)
         if (cloth.springs.list[fold.spring].spring_class != SpringClass::bend) continue;
         folds.push_back(fold);
     }
-    // A pair that is opposite to several sides is one spring.
+    // A pair opposite to several sides is one spring.
     std::stable_sort(folds.begin(), folds.end(),
                      [](const Fold& a, const Fold& b) { return a.spring < b.spring; });
     folds.erase(std::unique(folds.begin(), folds.end(),
@@ -306,13 +305,12 @@ std::vector<Fold> folds_of(const ClothModel& cloth)
     return folds;
 }
 
-/// Springs of a mesh as the solver numbers them: those between nodes that move first, then those that hold
-/// one to a pinned node, then loose ones. Springs of a class that does nothing, or between pinned nodes, are
-/// left out.
+/// The solver's order of a mesh's springs: first those between free nodes, then those to a pinned node, then
+/// loose ones. Springs of a class that is off, or between pinned nodes, are omitted.
 struct SolverSprings {
     std::vector<Spring> springs;
     std::size_t coupling_count = 0, loose_first = 0;
-    Ragged<WeightedSource> folds;  ///< by spring before loose_first: itself and what is folded onto it
+    Ragged<WeightedSource> folds;  ///< by spring before loose_first: itself and the springs folded onto it
 };
 
 SolverSprings solver_springs(const ClothModel& cloth)
@@ -353,7 +351,7 @@ SolverSprings solver_springs(const ClothModel& cloth)
     return list;
 }
 
-/// Appends tables of integers that kernels read.
+/// Appends tables of integers for kernels.
 class TopologyWriter {
 public:
     explicit TopologyWriter(std::vector<std::int32_t>& topology) : topology_(topology) {}
@@ -361,7 +359,8 @@ public:
     std::int32_t position() const { return static_cast<std::int32_t>(topology_.size()); }
     void add(std::int32_t a) { topology_.push_back(a); }
 
-    /// Starts of rows, as places in `topology`, and then the rows, of pairs: returns where the starts lie.
+    /// Writes the starts of rows, as offsets in `topology`, and then the rows, of pairs. Returns the offset
+    /// of the starts.
     template <class Entry, class WriteEntry>
     std::int32_t add_rows(const Ragged<Entry>& rows, WriteEntry&& write_entry)
     {
@@ -396,8 +395,7 @@ SolverLevel& Hierarchy::append_mesh_level(std::int32_t nodes, std::int32_t edges
     level.rows = 1;
     level.columns = std::max(nodes, 1);
     level.stride = static_cast<std::int32_t>(NodeLayout(1, static_cast<std::size_t>(level.columns)).stride);
-    // Offsets are those of NodeLayout, but a row that has no neighbours needs no border: planes overlap
-    // there.
+    // Offsets follow NodeLayout, but a single row needs no border: planes overlap there.
     const std::int32_t border = static_cast<std::int32_t>(NodeLayout::border_rows) * level.stride;
     level.size = level.stride + static_cast<std::int32_t>(NodeLayout::pad);
     number_count = std::max(number_count, static_cast<std::size_t>(border));
@@ -405,15 +403,14 @@ SolverLevel& Hierarchy::append_mesh_level(std::int32_t nodes, std::int32_t edges
     number_count += static_cast<std::size_t>(node_planes_count) * static_cast<std::size_t>(level.size);
     level.edges = edges;
     level.edge_base = static_cast<std::int32_t>(number_count);
-    // One block more, which couples nothing: for kernels of packs, whose lanes may have none of their own.
+    // One extra block that couples nothing, for lanes of packs without a block of their own.
     level.edge_size = whole(edges + level.columns + 1);
     number_count += static_cast<std::size_t>(edge_planes_count) * static_cast<std::size_t>(level.edge_size);
     levels.push_back(level);
     return levels.back();
 }
 
-/// Aggregates until few nodes are left. Every level at least halves the nodes that are coupled to others, so
-/// that there is an end to it.
+/// Aggregates until few nodes are left. Every level at least halves the coupled nodes, so this ends.
 void Hierarchy::build_mesh(const ClothModel& cloth)
 {
     constexpr std::uint32_t few = 12;
@@ -479,7 +476,8 @@ void Hierarchy::build_mesh(const ClothModel& cloth)
         level = &append_mesh_level(static_cast<std::int32_t>(coarse.graph.node_count),
                                    static_cast<std::int32_t>(coarse.graph.couplings.size()), level_planes,
                                    edge_force);
-        // Held and loose springs lie between the couplings and the row sums of the cloth.
+        // The blocks of springs to pins and of loose springs lie between the couplings and the row sums of
+        // the cloth's level.
         const auto couplings = static_cast<std::uint32_t>(graph.couplings.size());
         const auto add_blocks = [&](const Ragged<WeightedSource>& rows) {
             return writer.add_rows(rows, [&](const WeightedSource& a) {

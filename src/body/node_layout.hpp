@@ -1,4 +1,4 @@
-// How nodes are numbered in a plane of numbers.
+// The offsets of nodes in a plane of numbers.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@ namespace pliant {
 
 /// Nodes in rows, each row padded, with a border of padding all around: a kernel may read two nodes beyond
 /// any side, and write a whole SIMD pack at a row's end, without leaving the plane. A mesh is one row.
-/// Padding holds zeros and has inverse mass 0, so that whatever is computed there stays 0.
+/// Padding is zero with inverse mass 0, so that results there stay 0.
 struct NodeLayout {
     static constexpr std::size_t pad = row_pad;  ///< floats; the widest pack, and a cache line
     static constexpr std::size_t border_rows = pliant::border_rows;

@@ -21,7 +21,7 @@ double area(const std::vector<Vec3>& positions, const Triangle& t)
     return 0.5 * std::sqrt(dot(n, n));
 }
 
-/// Nodes that a pin names.
+/// The nodes that a pin selects.
 class PinnedNodes {
 public:
     PinnedNodes(const ClothShape& shape) : shape_(shape) {}
@@ -96,7 +96,7 @@ NodeMasses::NodeMasses(const Cloth& cloth, const ClothShape& shape)
                                                       "mass would be 0; remove it from the "
                                                       "mesh, or give node_mass instead of density");
     }
-    constexpr double least = 1e-18, most = 1e18;  // kg; beyond, float has no inverse worth the name
+    constexpr double least = 1e-18, most = 1e18;  // kg; beyond these a float has no accurate inverse
     for (std::size_t i = 0; i < count; ++i)
         if (!(mass[i] >= least && mass[i] <= most)) {
             char value[32];
@@ -146,7 +146,7 @@ Attachments pin_nodes(const Cloth& cloth, ClothShape& shape, NodeMasses& masses)
             shape.velocities[node] = {};
         }
         if (cloth.pins[p].keyframes.empty()) continue;
-        Vec3d centre{};  // against the origin of the model, as positions are
+        Vec3d centre{};  // relative to the origin of the model, as positions are
         for (const std::uint32_t node : nodes)
             centre = centre + at(shape.positions, node) * (1.0 / static_cast<double>(nodes.size()));
         for (const std::uint32_t node : nodes)
@@ -154,7 +154,7 @@ Attachments pin_nodes(const Cloth& cloth, ClothShape& shape, NodeMasses& masses)
                 {node, static_cast<std::uint32_t>(motions.size()), at(shape.positions, node) - centre});
         motions.push_back({centre, cloth.pins[p].keyframes});
     }
-    // A node that several moving pins hold follows the last of them.
+    // If several moving pins hold a node, it follows the last of them.
     std::stable_sort(attached.begin(), attached.end(),
                      [](const AttachedNode& a, const AttachedNode& b) { return a.node < b.node; });
     const auto last_of_node =

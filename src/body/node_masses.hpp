@@ -24,11 +24,11 @@ struct NodeMasses {
     void append(const NodeMasses& other);
 };
 
-/// A node that a moving pin holds.
+/// A node attached to a moving pin.
 struct AttachedNode {
     std::uint32_t node = 0;
     std::uint32_t motion = 0;  ///< index into Attachments::motions
-    Vec3d arm;                 ///< m, from the centre of the nodes that the pin holds, at the start
+    Vec3d arm;                 ///< m, from the centre of the pin's nodes, at the start
 };
 struct AttachmentMotion {
     Vec3d centre;  ///< m
@@ -41,7 +41,7 @@ struct Attachments {
     std::vector<AttachmentMotion> motions;
 
     bool empty() const { return nodes.empty(); }
-    /// Where the attached nodes are at a time, in their order; m.
+    /// Positions of the attached nodes at a time, in their order; m.
     void place(double time, std::span<Vec3> places) const;
     void renumber(std::span<const std::uint32_t> node_of_vertex);
     /// Those of a body whose first node becomes `first_node`, moved by `shift` (m).

@@ -15,8 +15,8 @@ struct SheetNeighbour {
     int rest = 0;  ///< index into SheetShape::rest_lengths
 };
 
-/// The canonical order in which every backend adds a node's springs: by the neighbour's index, that is
-/// backward neighbours (the first six) in row order, then forward ones.
+/// The canonical order in which every backend adds a node's springs: by the neighbour's index, so the six
+/// backward neighbours come first, in row order, then the forward ones.
 inline constexpr SheetNeighbour sheet_neighbours[12] = {
     {-2, 0, SpringClass::bend, 4},      {-1, -1, SpringClass::shear, 2}, {-1, 0, SpringClass::structural, 1},
     {-1, 1, SpringClass::shear, 2},     {0, -2, SpringClass::bend, 3},   {0, -1, SpringClass::structural, 0},

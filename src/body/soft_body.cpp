@@ -10,7 +10,7 @@
 namespace pliant {
 namespace {
 
-/// Appends the blocks of `count` things of one body from `first` on.
+/// Appends the blocks of `count` nodes or fans of one body, beginning at `first`.
 void append_blocks(std::vector<BodyBlock>& blocks, std::uint32_t first, std::uint32_t count,
                    std::uint32_t body)
 {
@@ -104,9 +104,9 @@ double inverse_weight_of(const Cloth& cloth, const BodyModel& body, const NodeMa
     return sum > 0 ? 1 / sum : 0;
 }
 
-/// Forces and torques of regions, added up node by node: f = F / n + tau x (x - c) / sum r^2, with r the
-/// distance of a node from the axis of tau through the middle c. Together they have the torque that is asked
-/// for as long as the nodes turn about that axis.
+/// Forces and torques of regions, summed by node: f = F / n + tau x (x - c) / sum r^2, with r the distance of
+/// a node from the axis of tau through the centre c. Their torque is the given one as long as the nodes turn
+/// about that axis.
 std::vector<LoadedNode> loads_of(const Cloth& cloth, const ClothShape& shape, const NodeMasses& masses)
 {
     const std::vector<Vec3>& positions = shape.positions;
@@ -193,8 +193,8 @@ std::pair<SpringSet, BodyModel> make_soft_body(const Cloth& cloth, const Steppin
 bool ClothModel::can_take(const ClothModel& other) const
 {
     if (!body || !other.body) return false;
-    // Further away than this, in widths of the body, single precision would see it less sharply than by its
-    // own origin.
+    // Beyond this distance, in widths of the body, single precision would resolve it worse than from its own
+    // origin.
     constexpr double far = 32;
     double width = 0;
     for (const Vec3& x : other.shape.positions)
@@ -242,7 +242,7 @@ void BodyModel::append(const BodyModel& other, std::uint32_t node, std::uint32_t
         p.centre = p.centre + shift;
         parts.push_back(std::move(p));
     }
-    // f = F + tau x (p - shift) of a position p against our origin
+    // f = F + tau x (p - shift) for a position p in our coordinates
     for (const LoadedNode& l : other.loads)
         loads.push_back({l.node + node, l.force - cross(l.torque, shift), l.torque});
 }

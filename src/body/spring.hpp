@@ -8,7 +8,7 @@ namespace pliant {
 
 enum class SpringClass : std::uint32_t {
     structural = 0,
-    shear = 1,  ///< of a soft body: the springs across its inside
+    shear = 1,  ///< of a soft body: internal springs
     bend = 2
 };
 constexpr std::size_t spring_class_count = 3;
@@ -19,7 +19,8 @@ struct Spring {
     SpringClass spring_class = SpringClass::structural;
     double rest_length = 0;  ///< m
     double scale = 1;        ///< multiplies stiffness and damping of its class
-    /// N/m, may be negative: of the quadratic bending energy, bending / 2 (x_j - x_i)^2, see bending.hpp
+    /// N/m, may be negative: weight in the quadratic bending energy, bending / 2 (x_j - x_i)^2, see
+    /// bending.hpp
     double bending = 0;
 };
 

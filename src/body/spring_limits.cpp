@@ -24,7 +24,7 @@ void set_springs(const Cloth& cloth, const SteppingPlan& plan, ClothParameters& 
                        : SpringRole::spring;
         const bool quadratic = !cloth.body && cloth.springs.bend_model == BendModel::quadratic;
         LimitedSprings& springs_of = limits.of_class[k];
-        springs_of.exists = quadratic;  // bending is a part of what all classes do
+        springs_of.exists = quadratic;  // all classes take part in bending
         if (role == SpringRole::off) continue;
         parameters.stiffness[k] = given.stiffness;
         parameters.spring_damping[k] = given.damping;
@@ -40,7 +40,7 @@ void set_springs(const Cloth& cloth, const SteppingPlan& plan, ClothParameters& 
             springs_of.below = given.limit > 0 ? given.stiffness : 0;
             springs_of.beyond = 1 / given.compliance;
             springs_of.compressed = plan.newton.resists == Resists::both ? springs_of.beyond : 0;
-            // What exerts no force has no energy to report.
+            // A class without forces has no energy to report.
             if (plan.solver == Solver::newton_multigrid) parameters.stiffness[k] = springs_of.below;
         } else {
             springs_of.below = given.stiffness;
@@ -59,7 +59,7 @@ void SpringLimits::finish(const SteppingPlan& plan, const SpringSet& springs, do
     remember_ = constrain_ && plan.solver == Solver::newton_multigrid &&
                 plan.newton.enforcement == Enforcement::multiplier;
     on_grid_ = plan.on_grid;
-    // An update is stable from a quarter of 4.6 on; one of steps of second order from 6.5 on
+    // First-order updates are stable from a quarter of 4.6 on, second-order ones from 6.5 on
     // (docs/physics.md, "Constraints").
     firm_ = plan.meets_colliders ? firm_limit : plan.is_second_order() ? 13 : 4.6;
     mean_mass_ = mean_mass;
@@ -91,11 +91,11 @@ double SpringLimits::largest() const
     return most;
 }
 
-// A pull runs through n springs in a row at sqrt(k / m) springs a second. By one update a step it has to be
-// through in about half of one, k = 4.6 m n^2 / dt^2; below a quarter of that the update itself is unstable
-// (docs/physics.md). What colliders hold up is pulled at from all sides, and wants four times as much. In
-// long steps it is to hold the cloth's weight at once, m g n over n springs of length L / n, at a stretch of
-// 0.2 %.
+// A pull passes through n springs in a row at sqrt(k / m) springs per second. With one update per step it
+// must pass in about half a step: k = 4.6 m n^2 / dt^2. Below a quarter of that the update itself is unstable
+// (docs/physics.md). Cloth held up by colliders is pulled from all sides, and needs four times as much. In
+// long steps the limit must bear the cloth's weight at once, m g n over n springs of length L / n, at a
+// strain of 0.2 %.
 double SpringLimits::softest(double step_length) const
 {
     const double line = mean_mass_ * across_ * across_;

@@ -8,7 +8,7 @@
 
 namespace pliant {
 
-/// Constant over a run, but for what Simulation changes per frame (the length of a step).
+/// Constant over a run, except for what Simulation changes per frame (the length of a step).
 struct ClothParameters {
     std::array<double, spring_class_count> stiffness{};       ///< N/m
     std::array<double, spring_class_count> spring_damping{};  ///< N s/m
@@ -21,7 +21,7 @@ struct ClothParameters {
     friend bool operator==(const ClothParameters&, const ClothParameters&) = default;
 };
 
-/// What the constraint methods know of a class of springs: as LimitCurve of laws/limit.law.glsl.
+/// A class of springs in the constraint methods: as LimitCurve of laws/limit.law.glsl.
 struct LimitedSprings {
     bool exists = false;
     double below = 0;  ///< N/m
@@ -41,11 +41,11 @@ struct LimitedSprings {
 struct SpringLimits {
     std::array<LimitedSprings, spring_class_count> of_class;
 
-    /// The softest limits, of m n^2 / dt^2, that pass a pull on through all n springs across the cloth in a
-    /// step, where colliders hold it up (docs/physics.md, "Constraints").
+    /// The softest limits, in m n^2 / dt^2, that pass a pull through all n springs across the cloth within
+    /// one step, if colliders hold it up (docs/physics.md, "Constraints").
     static constexpr double firm_limit = 18.4;
-    /// How many times as stiff those are on a mesh that hold a node to a pinned one: what hangs there hangs
-    /// by them alone, and a jerk stretches them by the change of force over their stiffness.
+    /// The factor on the stiffness of limits between a mesh's node and a pin. They alone bear what hangs
+    /// there, and a jerk stretches them by the change of force over their stiffness.
     static constexpr double held_limit = 4;
 
     void finish(const SteppingPlan& plan, const SpringSet& springs, double mean_mass, Vec3d gravity);
@@ -54,12 +54,12 @@ struct SpringLimits {
     {
         return of_class[static_cast<std::size_t>(spring_class)];
     }
-    /// Whether limits of a class remember their forces from step to step: a renewed_limit of
+    /// Whether limits of a class keep their forces from step to step: see renewed_limit in
     /// laws/limit.law.glsl.
     bool remembers(SpringClass spring_class) const;
     bool remembers_any() const { return remembers(SpringClass::structural) || remembers(SpringClass::shear); }
-    /// Whether all springs whose stretch is measured are such limits, and softer in steps of so many seconds
-    /// than by their compliance; and the largest limit.
+    /// Whether all springs whose strain is measured are such limits, and softer than their compliance in
+    /// steps of `step_length` s; and the largest limit.
     bool does_not_stretch(double step_length) const;
     double largest() const;
     /// Whether bend springs are constraints: too stiff to be folded onto others in the operator.
@@ -81,12 +81,11 @@ struct SpringLimits {
         const double softest_of_all = held_limit * softest(step_length);
         return softest_of_all / (1 + softest_of_all / of(SpringClass::structural).beyond);
     }
-    /// m: how far a polish takes a node at most where nothing but inertia resists (newton_polish). Of a mesh
-    /// a twenty-fifth of a spring, which stretches one by 0.08 %, and both its nodes by 0.3 %; sheets have no
-    /// bound.
+    /// m: maximum displacement by a polish where only inertia resists (newton_polish). On a mesh 1/25 of a
+    /// spring's length, which is a strain of 0.08 %, or 0.3 % if both its nodes move; unlimited on sheets.
     double polish_reach() const { return on_grid_ ? 1e9 : 0.04 * length_across_ / across_; }
-    /// The part of its stiffness that a slack limit which remembers keeps in Newton's matrix. On a mesh half
-    /// of them are slack, and hold up what should fall; a sheet takes more iterations with less than all.
+    /// The part of its stiffness that a slack limit with memory keeps in Newton's matrix. On a mesh half of
+    /// the limits are slack, and would hold up falling nodes; on a sheet less than 1 takes more iterations.
     double kept_when_slack() const { return on_grid_ ? 1 : 0.3; }
 
 private:

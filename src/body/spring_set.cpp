@@ -101,7 +101,8 @@ void SpringSet::set_rest_lengths(SheetShape& sheet, const RestScales& scales) co
 
 void SpringSet::list_sheet(const SheetShape& sheet)
 {
-    // Forward neighbours come in ascending order at any number of columns, so the list is sorted by (i, j).
+    // Forward neighbours are visited in ascending order for any number of columns, so the list is sorted by
+    // (i, j).
     list.reserve(sheet.spring_count());
     for_each_sheet_spring(sheet, [&](std::uint32_t i, std::uint32_t j, const SheetNeighbour& n) {
         list.push_back({i, j, n.spring_class, sheet.rest_lengths[static_cast<std::size_t>(n.rest)]});
@@ -113,7 +114,7 @@ void SpringSet::list_mesh(const ClothShape& shape, const RestScales& scales)
     using Pair = std::pair<std::uint32_t, std::uint32_t>;
     const auto ordered = [](std::uint32_t a, std::uint32_t b) { return a < b ? Pair{a, b} : Pair{b, a}; };
 
-    // Edges with the vertices opposite to them; sorted, so that everything follows in a fixed order.
+    // Edges with their opposite vertices; sorted, so that all that follows has a fixed order.
     std::vector<std::pair<Pair, std::uint32_t>> sides;
     sides.reserve(shape.triangles().size() * 3);
     for (const Triangle& t : shape.triangles())
@@ -166,8 +167,8 @@ void SpringSet::list_neighbours(std::size_t node_count)
 
 void SpringSet::renumber(std::span<const std::uint32_t> order, std::span<const std::uint32_t> node_of_vertex)
 {
-    // Springs lie by their first node, and are computed from the lower to the higher one: either way is the
-    // same force, bit for bit. What a node adds up stays in the order of the mesh's vertices.
+    // Springs are sorted by their first node and computed from the lower to the higher one; either direction
+    // gives the same bits. A node still adds its springs in the order of the mesh's vertices.
     std::vector<std::uint32_t> springs_in_order(list.size());
     for (std::uint32_t s = 0; s < list.size(); ++s) {
         Spring& spring = list[s];

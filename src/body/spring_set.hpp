@@ -19,15 +19,15 @@ struct SpringSet {
     SpringSet(std::vector<Spring> springs, Ragged<Neighbour> rows);
 
     std::vector<Spring> list;  ///< sorted by (i, j); empty where a sheet goes by its grid
-    /// Per node, sorted by the other one as the mesh numbers them; of a body see BodyModel::links
+    /// By node, sorted by the other node in the mesh's numbering; for a body see BodyModel::links.
     Ragged<Neighbour> neighbours;
     std::uint64_t count = 0;
     std::uint64_t measured_count = 0;  ///< structural and shear springs: those whose stretch is measured
     double shortest = 0;               ///< m, at rest; infinite without springs
-    double across = 1;         ///< how many structural springs lead in a row from one end to the other
-    double length_across = 1;  ///< m: of the cloth at rest
-    /// At most what the largest eigenvalue of the solver's operator is against its own diagonal blocks: a
-    /// term that couples n nodes has none beyond n, and a spring couples two.
+    double across = 1;                 ///< number of structural springs in a row from one end to the other
+    double length_across = 1;          ///< m: of the cloth at rest
+    /// An upper bound of the eigenvalues of D^-1 A, with the diagonal blocks D of the solver's operator A: a
+    /// term that couples n nodes contributes at most n, and a spring couples two.
     double spectrum_end = 2.5;
 
     void renumber(std::span<const std::uint32_t> order, std::span<const std::uint32_t> node_of_vertex);

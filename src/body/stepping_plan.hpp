@@ -5,10 +5,10 @@
 
 namespace pliant {
 
-/// Methods that step by the constraint solver.
+/// Methods that use the constraint solver.
 constexpr bool uses_solver(Method method) { return method == Method::constraint || method == Method::acad; }
 
-/// The method whose passes a scene is stepped by: implicit Euler is that of constraints, without any.
+/// The method whose passes step a scene: implicit Euler uses those of `constraint`, without constraints.
 inline Method stepped_method(const Scene& scene)
 {
     return scene.integrator == Integrator::implicit_euler ? Method::constraint : scene.method;
@@ -40,7 +40,7 @@ struct SteppingPlan {
     bool graded = false;
     /// Nodes stay in the order of the mesh, which the paper's solver numbers its rows by.
     bool keeps_order = false;
-    bool meets_colliders = false;  ///< the scene has some
+    bool meets_colliders = false;  ///< the scene has colliders
 
     Method method = Method::mass_spring;  ///< see stepped_method
     Integrator integrator = Integrator::symplectic_euler;
@@ -61,13 +61,13 @@ struct SteppingPlan {
     {
         return step == Step::body_springs || step == Step::body_list || step == Step::body_volume;
     }
-    /// Springs, and the ring of neighbours, are gathered in one pass, which needs no list of forces.
+    /// Whether one pass gathers springs and the ring of neighbours, without a list of forces.
     bool gathers_rings() const { return step == Step::body_springs || step == Step::body_volume; }
     /// Forces of springs are computed spring by spring, in a pass of their own.
     bool lists_springs() const { return !node_centric && !gathers_rings(); }
-    /// Implicit steps go by the step before, too: BDF2 (docs/physics.md, "Constraints").
+    /// Implicit steps use the previous step, too: BDF2 (docs/physics.md, "Constraints").
     bool is_second_order() const { return is_implicit() && newton.order == 2; }
-    /// s: an implicit step of a cloth that knows the step before is one of implicit Euler of this length.
+    /// s: with history, an implicit step equals one of implicit Euler of this length.
     double implicit_step(double step_length) const { return (is_second_order() ? 2.0 / 3 : 1) * step_length; }
 };
 

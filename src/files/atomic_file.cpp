@@ -19,7 +19,7 @@ namespace {
     throw Error(ErrorKind::bad_input, "cannot write '" + file.string() + "': " + reason);
 }
 
-/// Short whatever the target is called, and different for every writer in the same folder.
+/// Short for any target, and unique for every writer in the same folder.
 std::string temporary_name()
 {
     std::random_device random;
@@ -36,9 +36,9 @@ AtomicFile::AtomicFile(const std::filesystem::path& target) : asked_for_(target)
     std::error_code ignored;
     const auto status = std::filesystem::status(target, ignored);
     if (std::filesystem::is_directory(status)) fail(target, "it is a folder; give the name of a file");
-    // Renaming over a device or pipe would replace it.
+    // Renaming onto a device or pipe would replace it.
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-        fail(target, "it exists and is no plain file; give another name");
+        fail(target, "it exists and is not a regular file; give another name");
     if (std::filesystem::is_symlink(target, ignored))
         target_ = std::filesystem::weakly_canonical(target, ignored);
 
@@ -49,7 +49,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& target) : asked_for_(target)
     const auto temporary = folder / temporary_name();
     stream_.imbue(std::locale::classic());
     stream_.open(temporary, std::ios::binary | std::ios::trunc);
-    if (!stream_) fail(target, "no file can be created in its folder; check the permissions");
+    if (!stream_) fail(target, "its folder does not allow new files; check the permissions");
     temporary_ = temporary;
 }
 
@@ -64,10 +64,10 @@ AtomicFile::~AtomicFile()
 void AtomicFile::commit()
 {
     stream_.close();  // flushes; sets failbit when the last bytes could not be written
-    if (!stream_) fail(asked_for_, "not everything could be written; check the free space of the disk");
+    if (!stream_) fail(asked_for_, "it could not be written completely; check the free space of the disk");
     std::error_code error;
     std::filesystem::rename(temporary_, target_, error);
-    if (error) fail(asked_for_, "the finished file could not be given its name (" + error.message() + ")");
+    if (error) fail(asked_for_, "the finished file could not be renamed to it (" + error.message() + ")");
     temporary_.clear();
 }
 

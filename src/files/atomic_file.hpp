@@ -8,15 +8,15 @@
 
 namespace pliant {
 
-/// Writes to a temporary file beside the target; `commit` gives it the target's name in one step.
-/// Without a commit (an exception, an early return) the temporary is removed and an older target stays.
+/// Writes to a temporary file beside the target; `commit` renames it to the target. Without a commit (an
+/// exception, an early return) the temporary file is removed and an existing target is unchanged.
 ///
 ///     AtomicFile file(path);
 ///     file.stream() << "x,y\n";
 ///     file.commit();
 class PLIANT_INSIDE AtomicFile {
 public:
-    /// Throws Error(bad_input) when the folder is missing or closed, or the target is no plain file.
+    /// Throws Error(bad_input) if the folder is missing or not writable, or the target is not a regular file.
     explicit AtomicFile(const std::filesystem::path& target);
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
@@ -25,15 +25,15 @@ public:
     /// Binary, with the classic locale. Write errors need not be checked here: `commit` does.
     std::ostream& stream() { return stream_; }
 
-    /// As it was asked for.
+    /// As given by the caller.
     const std::filesystem::path& path() const { return asked_for_; }
 
-    /// Throws Error(bad_input) when anything could not be written; the target is then untouched.
+    /// Throws Error(bad_input) if anything could not be written; the target is then unchanged.
     void commit();
 
 private:
-    std::filesystem::path asked_for_;  // as the caller named it, for messages
-    std::filesystem::path target_;     // with symbolic links followed
+    std::filesystem::path asked_for_;  // as given by the caller, for messages
+    std::filesystem::path target_;     // with symbolic links resolved
     std::filesystem::path temporary_;
     std::ofstream stream_;
 };

@@ -1,4 +1,4 @@
-// Numbers as text, for messages.
+// printf-style formatting, for messages.
 #pragma once
 
 #include <charconv>
@@ -8,7 +8,7 @@
 
 namespace pliant {
 
-/// What printf would print, as a string of at most 1,023 characters.
+/// The output of printf as a string of at most 1,023 characters.
 template <class... Values>
 std::string formatted(const char* format, Values... values)
 {

@@ -10,7 +10,7 @@ namespace pliant {
 
 namespace {
 
-/// Where "%d" or "%04d" stands in a pattern; nothing when it is not there exactly once.
+/// Position and length of the "%d" or "%04d" in a pattern; empty unless there is exactly one.
 std::optional<std::pair<std::size_t, std::size_t>> placeholder_in(const std::string& pattern)
 {
     const std::size_t begin = pattern.find('%');

@@ -1,4 +1,4 @@
-// Names of files that hold the number of a frame.
+// File names that contain the number of a frame.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,10 @@
 
 namespace pliant {
 
-/// A name with one number in it, "seq_%04d.ply", filled in per frame.
+/// A name with one number, such as "seq_%04d.ply", filled in per frame.
 class PLIANT_INSIDE NumberedName {
 public:
-    /// Holds exactly one %d or %0Nd, with N from 1 to 9.
+    /// Whether there is exactly one %d or %0Nd, with N from 1 to 9.
     static bool is_valid(const std::string& pattern);
     /// Throws Error(bad_usage) unless there is exactly one %d or %0Nd.
     explicit NumberedName(const std::string& pattern);
@@ -20,10 +20,10 @@ public:
 
 private:
     std::string before_, after_;
-    std::size_t digits_ = 0;  // at least so many, filled with zeros
+    std::size_t digits_ = 0;  // minimum number of digits, padded with zeros
 };
 
-/// The ending of a name in lower case, with its point: ".png" of "A.PNG".
+/// The extension in lower case, with its dot: ".png" of "A.PNG".
 PLIANT_INSIDE std::string lower_case_ending(const std::filesystem::path& file);
 
 }  // namespace pliant

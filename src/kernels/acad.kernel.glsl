@@ -1,10 +1,10 @@
-// ACAD with the solver newton_multigrid: section 3.3 of the cloth paper, unilateral. A step is first made with springs
-// alone; where it leaves one stretched beyond the threshold, those that are near it become limits, and the step is made
-// good by the same minimisation that constraints are, from where the springs alone have led:
+// ACAD with the solver newton_multigrid: section 3.3 of the cloth paper, unilateral. Each step is first made with springs
+// alone. If a spring is then longer than the threshold, the springs near the threshold become limits, and the step is
+// corrected. The correction minimises the same energy as for constraints, starting from the result of the springs:
 //   E(t) = 1/2 |t - y|^2_{M / dt^2} + sum over the marked springs of their limits' energies,   y = x_springs - q
-// Without such a spring nothing but the test is run.
+// Without such a spring only the test runs.
 
-// Whether a spring, by its length squared, is to be a constraint: `held`, when it was one in the step before.
+// Whether a spring of this squared length becomes a constraint. `held`: it was one in the previous step.
 KERNEL mask is_overstretched(real length2, real rest, mask held)
 {
     real rest2 = rest * rest;
@@ -12,7 +12,7 @@ KERNEL mask is_overstretched(real length2, real rest, mask held)
     return length2 > choose(length2 < below * rest2, real(-1.0f), above * rest2);
 }
 
-// Near enough to the threshold that this step may take it there.
+// Close enough to the threshold to reach it within this step.
 KERNEL mask is_near_threshold(real length2, real rest, mask held)
 {
     real rest2 = rest * rest, reach = scalar(scalar_reach);
@@ -23,14 +23,14 @@ KERNEL mask is_near_threshold(real length2, real rest, mask held)
     return length2 > choose(length2 < below, real(-1.0f), above);
 }
 
-// How far it is beyond the threshold, by length squared, m2: the whole cost of being ready.
+// Excess of the squared length over the threshold, m2.
 KERNEL real excess(real length2, real rest2)
 {
     real over = length2 - acad_above2() * rest2;
     return acad_has_compression() ? largest(over, acad_below2() * rest2 - length2) : over;
 }
 
-// 1 where there is such a spring and it is beyond the threshold.
+// 1 if the spring exists and is longer than the threshold.
 KERNEL real counted_over(int k, int o, real length2)
 {
     mask over = acad_has_memory() ? is_overstretched(length2, sheet_rest(k), load(plane_mark + k, o) > 0.0f)
@@ -43,14 +43,14 @@ KERNEL real squared_excess(real length2, real rest)
     return over * over;
 }
 
-// Whether a step asks for a spring at all. A bend spring of a sheet is no longer than the two structural ones on its line,
-// and not beyond the threshold while they are not.
+// Whether the springs k are tested. A bend spring of a sheet is at most as long as the two structural springs on its line,
+// so it exceeds the threshold only if one of them does.
 KERNEL bool is_tested(int k)
 {
     return sheet_has(k) && (k < 4 || !sheet_has(0) || acad_has_compression() || acad_has_memory());
 }
 
-// The sum says whether there is something to solve; sheet_marks counts.
+// The sum tells whether the step has anything to solve; sheet_marks counts the springs.
 KERNEL void sheet_limits(int o)
 {
     vec3 x = node_next_position(o);
@@ -76,12 +76,12 @@ KERNEL void sheet_marks(int o)
     }
 }
 
-// --- Rows that take part ----------------------------------------------------------------------------------------------
-// Where no marked spring reaches, the operator is inertia alone and the right-hand side zero: a solve leaves such nodes
-// where they are. So its passes are over those rows of a level that a marked spring reaches, and over those of coarser
-// levels that interpolate to them (of a mesh, over such groups of nodes and edges), which are called live. All numbers of
-// the others are zero, as if they were pinned: what was live in the last solve is cleared before the next one begins. So
-// a solve costs in proportion to the cloth around its constraints.
+// --- Active rows ----------------------------------------------------------------------------------------------------
+// Where no marked spring acts, the operator is inertia alone and the right-hand side is zero, so a solve does not move those
+// nodes. The passes of a solve therefore run only over live rows: rows of a level that a marked spring reaches, and rows of
+// coarser levels that interpolate to them. On a mesh they are groups of nodes and edges. All numbers of the other rows are
+// zero, as for pins: rows that were live in the previous solve are cleared before the next. A solve costs in proportion to
+// the cloth around its constraints.
 
 KERNEL void clear_node(int o)
 {
@@ -95,7 +95,7 @@ KERNEL void sheet_clear(int o)
     for (int plane = plane_bend; plane < bent_sheet_planes; ++plane) store(plane, o, real(0.0f));
 }
 
-// A spring begins at most two rows before one that it reaches; a row is interpolated from those at most one from it.
+// A spring begins at most two rows before the other rows that it reaches; interpolation reads at most one row away.
 KERNEL void sheet_live(int row)
 {
     real found = real(0.0f);
@@ -109,7 +109,7 @@ KERNEL void sheet_live(int row)
     set_number(level.live + row, choose(found > 0.0f, real(1.0f), real(0.0f)));
 }
 
-// Where the springs alone have led is both the start and the aim of the minimisation. Friction has had its say there.
+// The result of the springs is both the start and the target of the minimisation. Friction has already acted there.
 KERNEL void acad_begin(int o)
 {
     vec3 q = node_position(o), ahead = node_next_position(o) - q;

@@ -1,4 +1,4 @@
-// Symmetric 3 x 3 blocks: what the operators of the solver are made of.
+// Symmetric 3 x 3 blocks, of which the solver's operators consist.
 
 struct Symmetric
 {
@@ -80,16 +80,15 @@ KERNEL real reciprocal(real a)
     return r * r;
 }
 
-// The larger of two, and not a number when one of them is not, where `largest` takes the other: of what is reported.
+// The larger of two; NaN if either is NaN (`largest` drops it). For reported values.
 KERNEL real larger(real a, real b)
 {
     return choose(a >= b, a, choose(b >= a, b, a + b));
 }
 
-// A = L D L^T, kept as the inverse pivots (xx, yy, zz) and the entries of L below them. A stiff sheet is stiff in its
-// plane and nearly free across it, so that the last pivot is what rounding left of a difference: it is never taken for
-// less than `least` (the node's inertia, a lower bound by theory) or what rounding can tell apart. An empty block has
-// the inverse zero.
+// A = L D L^T, stored as the inverse pivots (xx, yy, zz) and the entries of L below them. A stiff sheet is stiff in its
+// plane and nearly free across it, so cancellation can ruin the last pivot. No pivot is taken smaller than `least` (the
+// node's inertia, a lower bound in theory) or than the rounding error. The inverse of an empty block is zero.
 KERNEL Symmetric factored(Symmetric a, real least)
 {
     real rounding = 2.3841858e-7f;

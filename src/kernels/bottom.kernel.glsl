@@ -1,4 +1,4 @@
-// The bottom of the hierarchy: a dense L D L^T of the few nodes that are left, by one invocation.
+// The coarsest level: a dense L D L^T factorisation of its few nodes, by one invocation.
 
 KERNEL void bottom_add(int i, int j, Symmetric a, real sign)
 {
@@ -41,7 +41,7 @@ KERNEL void bottom_eliminate()
     }
 }
 
-// The operator of the last level as rows of numbers, factored.
+// The operator of the coarsest level as dense rows, factored.
 KERNEL void bottom_factor()
 {
     bottom_clear();

@@ -27,7 +27,7 @@ KERNEL void linear_update(int o)
     sums[0] = sums[0] + dot3(r, r);
 }
 
-// Preconditioners to compare with: the diagonal blocks alone, and none.
+// Preconditioners for comparison: the diagonal blocks alone, and none.
 KERNEL void linear_jacobi(int o)
 {
     vec3 r = load3(plane_residual, o);
@@ -42,7 +42,7 @@ KERNEL void linear_plain(int o)
     sums[0] = sums[0] + dot3(r, r);
 }
 
-// What is made of a product with the operator, whether it goes by the rows of a sheet or of a mesh.
+// Stores a product with the operator and its sums; for sheets and meshes.
 KERNEL void leave_applied(int o, vec3 ap)
 {
     store3(plane_applied, o, ap);

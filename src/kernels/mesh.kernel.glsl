@@ -1,8 +1,8 @@
-// The solver on meshes: smoothed aggregation. What belongs to springs, and to the couplings of coarser levels, lies by
-// edge; who belongs to whom is said by the integers of `topology`: tables of starts, and rows of pairs. Weights there
-// are the bits of a float. Operators have the form that they have on sheets,
+// The solver on meshes: smoothed aggregation. Data of springs, and of couplings on coarser levels, is stored by edge.
+// `topology` has the connectivity as integers: tables of starts, and rows of pairs. Weights in it are the bits of a float.
+// Operators have the same form as on sheets,
 //   (A x)_i = s_i x_i + sum_e B_e (x_i - x_j),
-// and the blocks of a level are numbered through: its couplings B, then its row sums s.
+// and the blocks of a level are numbered: first its couplings B, then its row sums s.
 // Sources: body/mesh_hierarchy.hpp; kernels/sheet.kernel.glsl.
 
 KERNEL int mesh_node(int o)
@@ -10,14 +10,14 @@ KERNEL int mesh_node(int o)
     return o - level_offset(0, 0);
 }
 
-// What multiplies the stiffness of a spring: its own share, and of ACAD whether it is marked.
+// The factor on a spring's stiffness: its own grade, times 0 where ACAD has not marked it.
 KERNEL real mesh_scale(int e)
 {
     real scale = is_graded() ? edge_load(edge_scale, e) : real(1.0f);
     return is_acad() ? scale * edge_load(edge_mark, e) : scale;
 }
 
-// A spring's part of the quadratic bending energy (body/bending.hpp): as a spring of no length at rest.
+// Adds a spring's part of the quadratic bending energy (body/bending.hpp): a spring of rest length zero.
 KERNEL SpringShare bent(SpringShare spring, vec3 d, real weight)
 {
     spring.force = spring.force + d * weight;
@@ -37,7 +37,7 @@ KERNEL LimitCurve mesh_limit(int e, int spring_class)
     return remembered(curve, edge_load(edge_slip, e), edge_load(edge_stiff, e), softest_of_edge(e, spring_class));
 }
 
-// Of ACAD's solve, which has bending in its explicit step, limits alone.
+// ACAD handles bending in its explicit step; its solve has limits only.
 KERNEL SpringShare with_bending(int e, SpringShare spring, vec3 d)
 {
     if (is_graded() && !is_acad()) spring = bent(spring, d, edge_load(edge_bending, e));
@@ -48,7 +48,7 @@ KERNEL real mesh_taut(SpringShare spring)
     return choose(magnitude(spring.multiplier) > 0.0f, real(1.0f), real(0.0f));
 }
 
-// A sum of blocks, of this level or the finer one: the row of pairs that `start` points at.
+// A sum of blocks of this level or of the finer one, over the row of pairs at `start`.
 KERNEL Symmetric mesh_sum_of_blocks(bool of_finer, int start)
 {
     Symmetric a = symmetric_diagonal(real(0.0f));
@@ -91,19 +91,19 @@ KERNEL void mesh_multiply(int e)
     sums[0] = sums[0] + limit.energy * mesh_scale(e);
 }
 
-// Bend springs that are loose couple no nodes: the sides of their triangles have their blocks as well (folds_of in
-// body/mesh_hierarchy.cpp). A row names the side's own block first.
+// Loose bend springs couple no nodes: their blocks are added to those of the sides of their triangles (folds_of in
+// body/mesh_hierarchy.cpp). A row lists the side's own block first.
 KERNEL void mesh_fold(int e)
 {
     if (e >= level.loose) return;
     edge_store6(edge_block, e, mesh_sum_of_blocks(false, level.fold_start + e));
 }
 
-// Forces and the operator of a node, from itself and from its springs.
+// Force on a node and its row of the operator, from the node itself and its springs.
 struct MeshNode
 {
     vec3 r;
-    Symmetric row_sum;   // and later the diagonal
+    Symmetric row_sum;   // later the diagonal
     real taut;
     real mass, energy, contact_energy;
 };
@@ -138,14 +138,14 @@ KERNEL void leave_mesh_node(int o, MeshNode node)
     sums[1] = sums[1] + node.contact_energy;
 }
 
-// The force of a loose spring, whose block others have.
+// The force of a loose spring. Its block is added to other edges.
 KERNEL MeshNode with_force(MeshNode node, vec3 force, real side)
 {
     node.r = plus_scaled(node.r, force, side);
     return node;
 }
 
-// A spring to a pinned node is a support of this one. A taut spring is counted at the lower of its nodes that move.
+// A spring to a pinned node adds to this node's row sum. A taut spring is counted at its free node of lower index.
 KERNEL void mesh_gather(int o)
 {
     int index = mesh_node(o);
@@ -168,7 +168,7 @@ KERNEL void mesh_gather(int o)
     leave_mesh_node(o, node);
 }
 
-// (A x) of a node; vectors are 0 at pinned nodes, which have no couplings.
+// (A x) of a node. Vectors are 0 at pinned nodes, which have no couplings.
 KERNEL vec3 mesh_row_product(int x, int o)
 {
     int node = mesh_node(o);
@@ -180,7 +180,7 @@ KERNEL vec3 mesh_row_product(int x, int o)
     return y;
 }
 
-// As linear_apply, level_smooth and level_residual have it for sheets.
+// As linear_apply, level_smooth and level_residual do for sheets.
 KERNEL void mesh_apply(int o)
 {
     leave_applied(o, mesh_row_product(plane_direction, o));
@@ -215,7 +215,7 @@ KERNEL void mesh_coarsen_nodes(int o)
     store6(plane_factor, o, factored(diagonal, real(0.0f)));
 }
 
-// The residual of the finer level, gathered, and the first correction of this one.
+// The residual of the finer level, restricted, and the first correction of this level.
 KERNEL void leave_restricted(int o, vec3 r)
 {
     store3(plane_residual, o, r);
@@ -231,7 +231,7 @@ KERNEL void mesh_restrict(int o)
     leave_restricted(o, r);
 }
 
-// The correction of this level, added to node f of the finer one.
+// Adds the correction of this level to node f of the finer one.
 KERNEL void mesh_prolong(int f)
 {
     int node = f - finer_offset(0, 0);
@@ -242,7 +242,7 @@ KERNEL void mesh_prolong(int f)
     finer_store3(finer_plane(), f, z);
 }
 
-// The operator of the last level, dense, and factored.
+// The operator of the coarsest level, dense and factored.
 KERNEL void mesh_bottom_factor()
 {
     bottom_clear();
@@ -258,7 +258,7 @@ KERNEL void mesh_bottom_factor()
     bottom_eliminate();
 }
 
-// --- ACAD, as acad.kernel.glsl has it for sheets -----------------------------------------------------------------------
+// --- ACAD, as in acad.kernel.glsl for sheets ---------------------------------------------------------------------------
 
 KERNEL void mesh_limits(int o)
 {
@@ -287,7 +287,7 @@ KERNEL void mesh_marks(int e)
     edge_store(edge_mark, e, choose(near, real(1.0f), real(0.0f)));
 }
 
-// What takes part in a solve, as acad.kernel.glsl has it for the rows of sheets: groups of nodes, and of edges.
+// The live groups of nodes and of edges, as the live rows of sheets in acad.kernel.glsl.
 KERNEL void mesh_clear(int o)
 {
     clear_node(o);
@@ -301,7 +301,7 @@ KERNEL void mesh_clear_edges(int e)
     edge_store(edge_taut, e, real(0.0f));
 }
 
-// Whether a marked spring ends at a node.
+// Whether a marked spring ends at this node.
 KERNEL bool is_at_marked(int node)
 {
     for (int list = 0; list < 2; ++list) {
@@ -311,14 +311,14 @@ KERNEL bool is_at_marked(int node)
     }
     return false;
 }
-// Whether a node of a coarser level interpolates to a live one.
+// Whether this node of a coarser level interpolates to a live node.
 KERNEL bool has_live_child(int node)
 {
     for (int k = topology(level.children_start + node); k < topology(level.children_start + node + 1); k += 2)
         if (whole(number(finer.live + (topology(k) - finer_offset(0, 0)) / sum_columns)) > 0) return true;
     return false;
 }
-// Whether a coupling of a coarser level comes from a live block.
+// Whether this coupling of a coarser level is made from a live block.
 KERNEL bool has_live_source(int e)
 {
     for (int k = topology(level.coupling_start + e); k < topology(level.coupling_start + e + 1); k += 2) {

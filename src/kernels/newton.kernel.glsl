@@ -1,13 +1,13 @@
-// One implicit step of a cloth as a minimisation, node by node: what the springs' own kernels (sheet.kernel.glsl,
-// mesh.kernel.glsl) leave over.
+// One implicit step of a cloth as a minimisation: the parts that work on single nodes. Springs are in sheet.kernel.glsl and
+// mesh.kernel.glsl.
 //
 //   E(t) = 1/2 |t - y|^2_{M / dt^2} + sum of the springs' energies + contact + friction
 //
-// over the displacement t of the step. The unknown is the displacement and not the position, because float then
-// resolves it to a part of itself and not of the distance to the origin. Newton's method starts at the displacement
-// dt v, not at 0 and not at y: from there slack springs are found slack (docs/physics.md, "Constraints").
+// The unknown t is the displacement of the step. Float resolves it relative to its own size; a position would be resolved
+// relative to its distance from the origin. Newton's method starts at the displacement dt v, not at 0 or y: from there it
+// finds slack springs slack (docs/physics.md, "Constraints").
 
-// A limit that remembers, as it is in a step (laws/limit.law.glsl); `stiffness` is 0 where it is new.
+// A limit with memory, in this step (laws/limit.law.glsl). `stiffness` is 0 if it is new.
 KERNEL LimitCurve remembered(LimitCurve curve, real slip, real stiffness, real softest_of_class)
 {
     curve.slip = slip;
@@ -16,7 +16,7 @@ KERNEL LimitCurve remembered(LimitCurve curve, real slip, real stiffness, real s
     return curve;
 }
 
-// Such a limit after a step, and what its energy is changed by for the next one, J. softest_bare: N/m, without compliance
+// The memory of such a limit after a step, and the resulting change of its energy, J. softest_bare: N/m, without compliance
 struct RenewedLimit
 {
     LimitMemory memory;
@@ -36,11 +36,11 @@ KERNEL RenewedLimit renewed(LimitCurve curve, real length2, real rest_length, in
     return limit;
 }
 
-// A step of second order, BDF2. With the step before, from x_before and v_before to x and v, and s = 2/3 h,
+// A second-order step, BDF2. With the previous step, from x_before and v_before to x and v, and s = 2/3 h,
 //   x' = q + t,  q = x + (x - x_before) / 3,   M (v' - mean) / s = F,  mean = v + (v - v_before) / 3,   v' = t / s
-// is an implicit Euler step of the length s from (q, mean), so that all else is as it was. A node that does not know the
-// step before, because it was none of the same length or the node touched a collider in it, makes one of Euler: q = x,
-// mean = v, s = h.
+// is an implicit Euler step of length s from (q, mean), so the rest of the solver is unchanged. A node has no history if the
+// previous step had another length, or if the node touched a collider in it. It then makes an Euler step: q = x, mean = v, s
+// = h.
 // Source: Hairer, Wanner, "Solving Ordinary Differential Equations II", 1996, section V.1.
 KERNEL mask knows_before(int o)
 {
@@ -57,7 +57,7 @@ KERNEL real inverse_step_of(int o)
     if (!is_second_order()) return inverse_step();
     return choose(knows_before(o), inverse_short_step(), inverse_step());
 }
-// Dampers of springs between two nodes: their number is for steps that both know.
+// Damping of a spring. Its second-order coefficient needs the history of both nodes.
 KERNEL LimitCurve damped_between(LimitCurve curve, int i, int j)
 {
     if (!is_second_order() || !has_damping()) return curve;
@@ -66,7 +66,7 @@ KERNEL LimitCurve damped_between(LimitCurve curve, int i, int j)
     return curve;
 }
 
-// A spring between two nodes in a step: the force on the first, N, and what the operator and the energy take from it.
+// A spring between two nodes in a step: the force on the first node, N, and its parts of the operator and the energy.
 struct SpringShare
 {
     vec3 force;
@@ -74,15 +74,16 @@ struct SpringShare
     real energy, multiplier;
 };
 
-// The direction that dampers act along: that of the spring when the step began. At second order, where inertia takes it.
+// The direction in which a damper acts: that of the spring at the start of the step; at second order, at the inertial
+// target.
 KERNEL vec3 damper_between(vec3 start, int i, int j)
 {
     if (!is_second_order() || !has_damping()) return start;
     return start + (load3(plane_aim, j) - load3(plane_aim, i));
 }
 
-// state: of the spring as it is now; start: x_j - x_i when the step began; d: now; damper: see above; scale: 1, or 0 where
-// there is no such spring
+// state: of the spring now; start: x_j - x_i at the start of the step; d: x_j - x_i now; damper: see above; scale: 1, or 0
+// if the spring does not exist
 KERNEL SpringShare share_of(SpringState state, real damping_of_class, vec3 start, vec3 d, vec3 damper, real inverse_length,
                             real scale)
 {
@@ -112,22 +113,22 @@ KERNEL SpringShare spring_share(LimitCurve curve, vec3 start, vec3 moved, vec3 d
                     scale);
 }
 
-// Contact of a node with the solid parts of the scene: an augmented Lagrangian, as the springs' limits are one. A node that
-// touches a collider remembers its normal force p, and a soft stiffness k only makes it right:
+// Contact of a node with colliders, by an augmented Lagrangian like the limits. A node in contact keeps its normal force p
+// from step to step; a soft stiffness k corrects it:
 //   E = 1/2 k max(0, p / k + depth)^2,   p' = k max(0, p / k + depth)
-// So a node at rest lies on the surface, whatever k, and k can be so small that Newton's method is not kept busy by nodes
-// that come and go. Where that lets a node too deep in, as what is pressed on by a whole cloth, k grows.
+// A node at rest therefore lies on the surface for any k, and k can be so small that nodes which gain or lose contact do not
+// slow Newton's method down. If a node is still too deep, for example under the weight of a whole cloth, k grows.
 // Source: Hestenes, "Multiplier and gradient methods", 1969.
-// Friction is that of Li et al., "Incremental Potential Contact", 2020: the normal force that is known (of the last step, and
-// from the middle of this step's iterations on of this one) times the coefficient. It grows linearly with the tangential
-// displacement up to `slip`, and is constant beyond.
+// Friction follows Li et al., "Incremental Potential Contact", 2020: the coefficient times a lagged normal force, that of
+// the previous step, and from the middle of this step's iterations on that of this step. It grows linearly with the
+// tangential displacement up to `slip`, and is constant beyond.
 struct Contact
 {
     vec3 force;         // N
     Symmetric stiffness;  // N/m
     real energy;        // J
-    real press, touched;  // N, of the collider that presses most, and its number from 1 on
-    real depth;         // m, in that one
+    real press, touched;  // N, of the collider with the largest normal force; its number, from 1 on
+    real depth;         // m, in that collider
 };
 
 KERNEL real contact_stiffness_of(int o)
@@ -141,8 +142,8 @@ KERNEL mask is_number(real a, int k)
     return both(a > real(float(k)) - 0.5f, real(float(k)) + 0.5f > a);
 }
 
-// How deep a node was in a collider as the step began, beyond what contact leaves one at, m. Such a node is not put on the
-// surface at once: for this step the surface is as deep as the node was, and step_begin lets it rise.
+// Penetration of a node at the start of a step, beyond the depth that contact leaves, m. Such a node is not put on the
+// surface at once: for this step the surface is moved to the node's depth, and step_begin lets the node rise.
 KERNEL real sunk_in(int k, int o, vec3 q)
 {
     if (collider(k).response != 2) return real(0.0f);
@@ -191,8 +192,8 @@ KERNEL Contact contact_at(int o, vec3 q, vec3 t)
     real per_length = choose(length > slip(), reciprocal(largest(length, slip())), sticking);
     c.force = c.force - sliding * (grip * per_length);
     c.stiffness = plus(c.stiffness, symmetric_about(n, real(0.0f), grip * per_length));
-    // A node that its inertia takes on against friction meets none that grows with its way. One that friction will stop is
-    // slowed down by the secant, which does not overshoot.
+    // Where inertia drives a node against friction, the tangent has no stiffness along the direction of sliding. Where
+    // friction will stop the node, the secant slows it down without overshoot.
     vec3 ahead = load3(plane_aim, o) - load3(plane_drag, o);
     ahead = ahead - n * dot3(ahead, n);
     real inertia = load(plane_mass, o);
@@ -202,10 +203,10 @@ KERNEL Contact contact_at(int o, vec3 q, vec3 t)
     return c;
 }
 
-// What friction goes by: the collider that presses most, and how much.
+// The data of friction: the collider with the largest normal force, and that force.
 struct Grip
 {
-    vec3 normal, drag;  // m: the way of the surface in this step
+    vec3 normal, drag;  // m: displacement of the surface in this step
     real press, grip;   // N
 };
 
@@ -233,8 +234,8 @@ KERNEL void leave_grip(int o, Grip g)
     store(plane_grip, o, choose(is_free, g.grip, real(0.0f)));
 }
 
-// A node that may meet a collider in this step or the next one makes steps of first order: by BDF2 one that is stopped is
-// thrown back by half of what it came with, and what hangs on it with it.
+// A node that may touch a collider in this step or the next makes first-order steps: BDF2 would throw a stopped node back at
+// half its speed of impact, with the cloth around it.
 KERNEL void forget_near_colliders(int o, vec3 x, vec3 v)
 {
     int before = history_plane() + history_step;
@@ -247,8 +248,8 @@ KERNEL void forget_near_colliders(int o, vec3 x, vec3 v)
     store(before, o, kept);
 }
 
-// The wind that a step goes by, N: that at its start; at second order that at its end, on the line through it and the
-// start of the step before. Where wind changes by more than half of itself in a step such a line would be unstable.
+// Wind force of a step, N. First order: its value at the start. Second order: extrapolated to the end from the starts of
+// this and the previous step, unless it changes by more than half of itself; then extrapolation would be unstable.
 // Source: Ascher, Ruuth, Wetton, "Implicit-explicit methods for time-dependent partial differential equations", 1995.
 KERNEL vec3 wind_in_step(int o)
 {
@@ -260,7 +261,7 @@ KERNEL vec3 wind_in_step(int o)
     return force + change * choose(is_smooth, real(1.0f), real(0.0f));
 }
 
-// Where a node that has sunk into colliders is taken by what lets it rise (`rising_speed` of laws/contact.law.glsl).
+// The target of a node inside colliders while it rises (`rising_speed` of laws/contact.law.glsl).
 KERNEL vec3 risen(int o, vec3 q, vec3 aim, real step, real inverse_step)
 {
     for (int k = 0; k < collider_count(); ++k) {
@@ -298,13 +299,13 @@ KERNEL void step_begin(int o)
     mask is_free = w > 0.0f;
     real mass = choose(is_free, node_mass(o) * inverse_step * inverse_step, real(0.0f));
     vec3 start = choose(is_free, v * step, node_next_position(o) - q);
-    // A hand aims, too, but does not move the start: that its node is ahead of what it hangs on is for Newton's method
-    // to find, and not a stretched spring to begin with.
+    // A hand changes the target but not the start: otherwise the node's springs would be stretched before Newton's method
+    // begins.
     vec3 pulled = mean;
     if (hand_is_near(o))
         pulled = where_held(o, grabbed_velocity(q, mean, hand_target(), gravity(), hand_pull(), hand_hold(), step), mean);
     vec3 push = (gravity() + wind_in_step(o) * w) * step, aim = (pulled * decay() + push) * step;
-    if (is_second_order()) {  // air by the velocity at the end: what it takes is inertia
+    if (is_second_order()) {  // drag acts on the velocity at the end, so it adds to inertia
         real weight = air() * step + 1.0f;
         aim = (pulled + push) * (step * reciprocal(weight));
         mass = mass * weight;
@@ -319,7 +320,7 @@ KERNEL void step_begin(int o)
     sums[0] = sums[0] + mass * dot3(ahead, ahead);
     sums[1] = sums[1] + least_load(mass, q, start);
 
-    if (collider_count() == 0) return;  // nobody asks for friction
+    if (collider_count() == 0) return;  // without colliders friction is not read
     Grip g = no_grip();
     real touched = load(plane_touched, o), press = load(plane_press, o), k_node = contact_stiffness_of(o);
     for (int k = 0; k < collider_count(); ++k) {
@@ -333,9 +334,9 @@ KERNEL void step_begin(int o)
     leave_grip(o, g);
 }
 
-// The second half of a step's iterations goes by the normal forces that the first half has found: so a node comes to lie
-// on the surface and not a hundredth of its way beneath it, and friction is that of this step. The sum, J, says whether
-// there is a difference, by what it would move the nodes' masses.
+// The second half of a step's iterations uses the normal forces that the first half found. The node then lies on the
+// surface, not a hundredth of its displacement below it, and friction is that of this step. The sum, J, measures the change
+// of normal forces by the displacement that it would give the nodes' masses.
 KERNEL void contact_change(int o)
 {
     Contact contact = contact_at(o, load3(plane_start, o), load3(plane_way, o));
@@ -344,8 +345,7 @@ KERNEL void contact_change(int o)
     sums[0] = sums[0] + mass * moved * moved;
 }
 
-// How firm the contact of a node is to be: a depth of more than a tenth of a millimetre makes it firmer, one of less lets
-// it be softer from step to step.
+// How much stiffer the contact of a node becomes: more at a depth above 0.1 mm, gradually less below it.
 KERNEL real firm_for(real firm, real depth)
 {
     real target = real(1e-4f), most = real(100.0f);
@@ -367,9 +367,9 @@ KERNEL void contact_keep(int o)
     leave_grip(o, g);
 }
 
-// A Newton step x of a node that touches nothing knows of no collider ahead, and the next one would have to throw the node
-// out again: on a table hundreds of nodes would come and go for ever. So the step ends where the collider carries the node:
-// at the depth whose force is that of the last step, or the node's own inertia and gravity.
+// A Newton step x of a node without contact does not include colliders ahead, so the next iteration would push the node out
+// again; on a table hundreds of nodes would alternate without end. The step therefore ends where the collider carries the
+// node: at the depth whose force equals that of the previous step, or the node's own inertia and weight.
 // Source: projected Newton methods; Bertsekas, 1982.
 KERNEL vec3 stopped_by_colliders(int o, vec3 t, vec3 x)
 {
@@ -387,7 +387,7 @@ KERNEL vec3 stopped_by_colliders(int o, vec3 t, vec3 x)
     return x;
 }
 
-// Newton's step, whole, and part of it again when the line search refuses it.
+// The full Newton step, and a shorter one each time the line search refuses it.
 KERNEL void newton_move(int o)
 {
     vec3 t = load3(plane_way, o), x = load3(plane_step, o);
@@ -398,10 +398,10 @@ KERNEL void newton_move(int o)
     store3(plane_accepted, o, t);
     store3(plane_way, o, t + x);
 }
-// What is left of local errors at the end of a step: a damped step of block Jacobi, from what the last look has left. It
-// takes the peaks of stretch at single springs. Nothing but a node's inertia resists a step across springs that lie in one
-// plane, as those of a node at a mesh's border do, until it has stretched them by some per cent: so the step is not longer
-// than polish_reach() in its softest direction, which a second D^-1 finds.
+// Reduces local errors at the end of a step: one damped step of block Jacobi, from the residual of the last evaluation. It
+// removes peaks of strain at single springs. If all springs of a node lie in one plane, as at the border of a mesh, only the
+// node's inertia resists a step across that plane until the springs are stretched by some per cent. The step is therefore
+// limited to polish_reach() in the softest direction, which a second D^-1 finds.
 KERNEL void newton_polish(int o)
 {
     Symmetric factor = load6(plane_factor, o);
@@ -417,9 +417,9 @@ KERNEL void search_move(int o)
     store3(plane_way, o, load3(plane_accepted, o) + load3(plane_step, o) * scalar(scalar_step));
 }
 
-// v' = t / dt, x' = q + t. A node that touches a collider has the velocity of its way in this step: by BDF2 one that is
-// stopped would be thrown back by half of what it came with. The sum is the work of everything but springs and gravity's
-// share of inertia, for the balance of energy in solve_end.
+// v' = t / dt, x' = q + t. A node in contact gets the velocity of its displacement in this step: by BDF2 a stopped node
+// would be thrown back at half its speed of impact. The sum is the work of everything but springs and gravity's part of
+// inertia, for the energy balance in solve_end.
 KERNEL void step_end(int o)
 {
     vec3 t = load3(plane_way, o);

@@ -4,9 +4,9 @@
 //
 //   (J M^-1 J^T + S) lambda = C / dt^2 + J u / dt,    v' = u - dt M^-1 J^T lambda,    x' = x + dt v'     (eq. 7 to 11)
 //
-// u being the velocity without constraints, which of a pin is its own: that is the paper's Phi_t. S is the compliance,
-// which the paper does not have (docs/physics.md, "The paper's solver"). One invocation for a node, a spring, or an
-// active constraint; nodes gather what springs have, so that nothing is added atomically.
+// u is the velocity without constraints; for a pin it is the pin's own velocity: the paper's Phi_t. S is the compliance,
+// which the paper does not have (docs/physics.md, "The paper's solver"). One invocation handles a node, a spring or an
+// active constraint; nodes gather from springs, so no atomics are needed.
 
 KERNEL real row_get(int plane, int s) { return number(topology(rows_base) + plane * topology(rows_size) + s); }
 KERNEL void row_set(int plane, int s, real a) { set_number(topology(rows_base) + plane * topology(rows_size) + s, a); }
@@ -33,9 +33,9 @@ KERNEL void paper_begin(int o)
     store(paper_inverse_mass, o, w);
 }
 
-// Section 3.3: whether a spring is a constraint in this step. One that was stays one until its stretch is below the
-// second threshold; a unilateral one also while it bears a load, or else it would, at rest just at its threshold, be
-// switched by rounding.
+// Section 3.3: whether a spring is a constraint in this step. A constraint stays one until its strain is below the second
+// threshold. A unilateral one also stays while it bears a load; otherwise rounding would switch it on and off at the
+// threshold.
 KERNEL real next_mark(int s, real stretch)
 {
     real last = row_get(row_mark, s), on = paper_value(paper_activate), off = paper_value(paper_deactivate);
@@ -46,7 +46,7 @@ KERNEL real next_mark(int s, real stretch)
     return real(0.0f);
 }
 
-// A spring is a constraint, with a row of J, or it has a force: eq. (1) or eq. (5).
+// A spring is either a constraint, with a row of J, or it exerts a force: eq. (1) or eq. (5).
 KERNEL void paper_springs(int s)
 {
     int i = spring_end(s, 0), j = spring_end(s, 1), k = topology(topology(rows_classes) + s);
@@ -56,7 +56,7 @@ KERNEL void paper_springs(int s)
         mark = topology(rows_adaptive) != 0 ? next_mark(s, spring_stretch(xi, xj, rest)) : real(1.0f);
         row_set(row_mark, s, mark);
         row_set3(row_jacobian, s, xi - xj);
-        row_set(row_direction, s, real(0.0f));  // a column of the matrix that nobody uses now adds nothing
+        row_set(row_direction, s, real(0.0f));  // so that this column of the matrix adds nothing
     }
     bool is_constraint = magnitude(mark) > 0.0f;
     vec3 force = vec3(real(0.0f), real(0.0f), real(0.0f));
@@ -67,7 +67,7 @@ KERNEL void paper_springs(int s)
     sums[0] = sums[0] + (is_constraint ? real(1.0f) : real(0.0f));
 }
 
-// F^A, and with it u, in the order of list_step.
+// F^A, and from it u; the sum has the order of list_step.
 KERNEL void paper_gather(int o, int node)
 {
     vec3 force = vec3(real(0.0f), real(0.0f), real(0.0f));
@@ -85,7 +85,7 @@ KERNEL void paper_gather(int o, int node)
     store3(paper_free_velocity, o, choose(w > 0.0f, u, v));
 }
 
-// How many constraints there are. With none, the solve is skipped.
+// The number of constraints. If it is 0, the solve is skipped.
 KERNEL void paper_count()
 {
     real count = total(sum_active);
@@ -98,8 +98,8 @@ KERNEL void paper_count()
     set_scalar(scalar_residual_last, real(0.0f));
 }
 
-// The list of active constraints by an exclusive prefix sum over their marks: within blocks of 256 first, then the same
-// over the blocks' totals, level by level until one block is left. Whole numbers, so that no order of adding matters.
+// The list of active constraints, by an exclusive prefix sum over their marks: first within blocks of 256, then over the
+// blocks' totals, level by level until one block is left. The numbers are whole, so the order of addition does not matter.
 // Source: Blelloch, "Prefix sums and their applications", 1990.
 KERNEL void paper_scan(int block)
 {
@@ -127,7 +127,7 @@ KERNEL void paper_list(int s)
     row_set(row_list, whole(place), real(s));
 }
 
-// The length that a constraint holds.
+// The length that a constraint enforces.
 KERNEL real target_length(int s)
 {
     real rest = row_get(row_rest, s);
@@ -135,7 +135,7 @@ KERNEL real target_length(int s)
     return rest * (1.0f + paper_value(paper_activate) * row_get(row_mark, s));
 }
 
-// The part of M^-1 that two springs share, with the sign of their product in J M^-1 J^T.
+// The inverse mass that two springs share, with the sign of their product in J M^-1 J^T.
 KERNEL real shared_inverse_mass(int s, int t)
 {
     int si = spring_end(s, 0), sj = spring_end(s, 1), ti = spring_end(t, 0), tj = spring_end(t, 1);
@@ -147,9 +147,9 @@ KERNEL real shared_inverse_mass(int s, int t)
     return c;
 }
 
-// A row of J M^-1 J^T (the paper's SpMM, over the couplings that can be), and the right-hand side of eq. (11); the
-// start of conjugate gradients from lambda = 0 (eq. 12). A compliance a of the length, l' - L = a T with the tension
-// T = 2 l lambda, is one of C of (2 l)^2 a, as C' = 2 l (l' - L) to first order.
+// A row of J M^-1 J^T (the paper's SpMM, over the possible couplings), the right-hand side of eq. (11), and the start of
+// conjugate gradients at lambda = 0 (eq. 12). A compliance a of the length, l' - L = a T with the tension T = 2 l lambda, is
+// a compliance (2 l)^2 a of C, as C' = 2 l (l' - L) to first order.
 KERNEL void paper_system(int k)
 {
     int s = active_row(k);
@@ -172,11 +172,12 @@ KERNEL void paper_system(int k)
     sums[0] = sums[0] + b * b;
 }
 
-// lambda = 0 is the first of the multipliers to choose from, of residual b.
+// lambda = 0, with the residual b, is the first candidate for the best multipliers.
 //
-// A unilateral constraint must not push. Leaving out those that do when the solution is there would leave what others
-// pull against them, which has no bound where the matrix is nearly singular. So they are dropped, and conjugate
-// gradients go on with the others: the step that drops them has the direction p = -lambda where they are, length 1.
+// A unilateral constraint must not push. Removing those that push from the final solution would leave the forces that other
+// constraints exert against them, which are unbounded where the matrix is nearly singular. So they are dropped during the
+// iteration, and conjugate gradients continue with the others. The step that drops them has the direction p = -lambda at
+// their rows, and length 1.
 KERNEL void paper_start()
 {
     real b2 = total(sum_linear_residual2), tolerance = paper_value(paper_tolerance);
@@ -202,7 +203,7 @@ KERNEL void paper_apply(int k)
     sums[0] = sums[0] + row_get(row_direction, s) * ap;
 }
 
-// Eq. (13). J M^-1 J^T is singular where constraints depend on each other; a direction without curvature ends it all.
+// Eq. (13). J M^-1 J^T is singular if constraints depend on each other; a direction without curvature ends the iteration.
 KERNEL void paper_alpha()
 {
     real curvature = total(sum_curvature);
@@ -217,7 +218,7 @@ KERNEL void paper_alpha()
     set_scalar(scalar_iterations, scalar(scalar_iterations) + real(1.0f));
 }
 
-// Eq. (14) and (15). What a dropped constraint is off its length is nobody's residual.
+// Eq. (14) and (15). The error of a dropped constraint is not part of the residual.
 KERNEL void paper_update(int k)
 {
     int s = active_row(k);
@@ -231,11 +232,11 @@ KERNEL void paper_update(int k)
     sums[1] = sums[1] + (lambda * mark < 0.0f ? real(1.0f) : real(0.0f));
 }
 
-// Eq. (16). On a singular system the residual does not fall for ever, and may grow: the best multipliers are kept.
+// Eq. (16). On a singular system the residual stops falling and may grow: the best multipliers are kept.
 KERNEL void paper_check()
 {
     real r2 = total(sum_linear_residual2), before = scalar(scalar_rho), best = scalar(scalar_best);
-    bool dropping = scalar(scalar_dropping) > 0.0f;  // has been done: conjugate gradients start again from here
+    bool dropping = scalar(scalar_dropping) > 0.0f;  // after dropping, conjugate gradients start again
     bool fine = is_finite(r2), better = fine && (r2 < best || dropping);
     set_scalar(scalar_rho, r2);
     set_scalar(scalar_beta, fine && !dropping ? r2 * reciprocal(before) : real(0.0f));
@@ -248,7 +249,7 @@ KERNEL void paper_check()
     if (!fine || (solved_here && !drop)) set_scalar(scalar_linear_done, real(1.0f));
 }
 
-// Eq. (17), or the step that drops what pushes.
+// Eq. (17), or the step that drops constraints which push.
 KERNEL void paper_direction(int k)
 {
     int s = active_row(k);
@@ -263,15 +264,15 @@ KERNEL void paper_direction(int k)
     row_set(row_direction, s, p);
 }
 
-// The multipliers that are used. Where the iterations did not suffice, a unilateral constraint may push in this step.
+// The final multipliers. If the iterations did not suffice, a unilateral constraint may push in this step.
 KERNEL void paper_multipliers(int k)
 {
     int s = active_row(k);
     if (!(scalar(scalar_better) > 0.0f)) row_set(row_lambda, s, row_get(row_best, s));
 }
 
-// Eq. (6) to (8): the constraints' forces J^T lambda (the paper's SpMVT, by columns), and the step. Then contact, by
-// itself, as everywhere else in the explicit methods.
+// Eq. (6) to (8): the constraints' forces J^T lambda (the paper's SpMVT, by columns), and the step. Contact follows
+// separately, as in the other explicit methods.
 KERNEL void paper_step(int o, int node)
 {
     vec3 force = load3(paper_force, o), v = load3(paper_velocity, o);
@@ -316,7 +317,7 @@ KERNEL void paper_end()
     set_scalar(scalar_active_last, count);
 }
 
-// The largest force of a constraint at a node, N, for who wants to see it.
+// The largest force of a constraint at a node, N, for reports.
 KERNEL void paper_export(int o)
 {
     set_multiplier(o, load(paper_multiplier, o));

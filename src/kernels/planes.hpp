@@ -1,9 +1,9 @@
-// The numbers of planes and scalars, as C++.
+// The numbers of planes and scalars for C++.
 #pragma once
 
 namespace pliant {
 #include "kernels/planes.kernel.glsl"
 
-/// Groups of sum_columns that so many columns, edges or rows make.
+/// Number of groups of sum_columns columns, edges or rows.
 constexpr int sum_groups(int count) { return (count + sum_columns - 1) / sum_columns; }
 }  // namespace pliant

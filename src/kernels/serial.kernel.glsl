@@ -1,14 +1,14 @@
-// What one invocation does between the passes over nodes: it turns sums into the scalars of Newton's method, the line
-// search and conjugate gradients, and counts. The loops of solve/newton_multigrid.cpp are unrolled to their greatest
-// length; a loop ends by its flag here, and the passes that are left of it do nothing. So nothing returns to the host.
+// Passes of one invocation between the passes over nodes. They turn sums into the scalars of Newton's method, the line
+// search and conjugate gradients, and count. The loops of solve/newton_multigrid.cpp are unrolled to their maximum length.
+// These passes set a flag when a loop ends, and the rest of its passes do nothing. Nothing returns to the host.
 
 KERNEL void solve_reset()
 {
     for (int k = scalar_solves; k < scalar_count; ++k) set_scalar(k, real(0.0f));
 }
 
-// ACAD: a step that stretches no spring too far has nothing to solve. The correction of one that does moves nodes by about
-// as much as springs are too long, and may stretch other springs too far. Those within that reach are marked, too.
+// ACAD: a step without springs beyond the threshold has nothing to solve. Otherwise the correction moves nodes by about as
+// much as springs are too long, and may take other springs beyond the threshold. Springs within that reach are marked, too.
 KERNEL void acad_check()
 {
     set_scalar(scalar_idle, real(total(sum_active) > 0.0f ? 0.0f : 1.0f));
@@ -16,7 +16,7 @@ KERNEL void acad_check()
     set_scalar(scalar_reach, acad_reach() * (excess2 * inverse_sqrt(excess2)));
 }
 
-// The energies of a look are those that the line search goes by.
+// The energies of this evaluation are the reference of the line search.
 KERNEL void accept_energies()
 {
     set_scalar(scalar_energy, total(sum_spring_energy) + total(sum_node_energy));
@@ -33,6 +33,8 @@ KERNEL void solve_begin()
     set_scalar(scalar_iterations, real(0.0f));
     set_scalar(scalar_residual_last, real(0.0f));
     if (idle) return;
+    // In free flight the load is 0, and no residual could be small relative to that: the load is at least a thousandth of
+    // the displacement.
     real least = is_acad() ? real(0.0f) : total(sum_least_load);
     set_scalar(scalar_load, largest(total(sum_load), least));
     accept_energies();
@@ -48,10 +50,10 @@ KERNEL void linear_start()
     set_scalar(scalar_slope, real(0.0f));
 }
 
-// beta = (r . z) / (r . z)_before.  r . z is the square of the residual in the norm of the energy, J, and what ends the
-// iteration: a fraction of the load of the step, so that every linear system of a step is solved equally well. (A part of
-// its own first residual leaves the first systems of a step, whose residual is all overstretched springs, too rough; and
-// the plain norm of r hears nothing but stiff springs.)
+// beta = (r . z) / (r . z)_before.  r . z is the squared residual in the norm of the energy, J. The iteration ends when it
+// is a fraction of the load of the step, so every linear system of a step is solved equally well. (Relative to its own first
+// residual, the first systems of a step, dominated by overstretched springs, would be solved too roughly. The norm |r| is
+// dominated by stiff springs.)
 KERNEL void linear_beta()
 {
     real rho = total(sum_rho), before = scalar(scalar_rho);
@@ -65,7 +67,7 @@ KERNEL void linear_beta()
     if (!(rho > 0.0f) || (before > 0.0f && rho <= scalar(scalar_goal))) set_scalar(scalar_linear_done, real(1.0f));
 }
 
-// alpha = (r . z) / (p . A p); rounding may take the positive definiteness of A: then what there is must do
+// alpha = (r . z) / (p . A p). Rounding may make A indefinite; then the iteration ends with the present solution.
 KERNEL void linear_alpha()
 {
     real curvature = total(sum_curvature), rho = scalar(scalar_rho);
@@ -77,8 +79,8 @@ KERNEL void linear_alpha()
     set_scalar(scalar_iterations, scalar(scalar_iterations) + real(1.0f));
 }
 
-// A step that has gained alpha (r . z), the square of the error's norm that it took away, not more than the goal, was the
-// last: to hear that from r . z itself would cost one more cycle.
+// alpha (r . z) is the decrease of the squared error. When it is at most the goal, the iteration ends; testing r . z itself
+// would cost one more V-cycle.
 KERNEL void linear_check()
 {
     real r2 = total(sum_linear_residual2);
@@ -94,10 +96,10 @@ KERNEL void search_begin()
     set_scalar(scalar_step, real(1.0f));
 }
 
-// Armijo's rule, with room for the rounding of the sums. A step that is refused is shortened to 1/4, and then squared from
-// try to try: it knows of no limit ahead, and a spring that is about to reach its limit may bear but a thousandth of it. The
-// last try is no step at all, and is taken. Either the whole energy must fall or that without contact: a node that meets a
-// collider within an iteration does not hold up the cloth, for the next one sets it right.
+// Armijo's rule, with a tolerance for rounding of the sums. A refused step is shortened to 1/4, and the factor is then
+// squared at each try: the Newton step does not include limits ahead, and a spring about to reach its limit may allow only a
+// thousandth of it. The last try is the step zero, and is accepted. Either the total energy or that without contact must
+// fall: a node that meets a collider within an iteration does not stop the cloth, since the next iteration corrects it.
 KERNEL void search_check()
 {
     real energy = total(sum_spring_energy) + total(sum_node_energy);
@@ -115,8 +117,8 @@ KERNEL void search_check()
     }
 }
 
-// The step r . A^-1 r that Newton's method has just gained, against the load of the step: the square of the residual
-// in the norm of the energy.
+// The gain r . A^-1 r of the last Newton step, relative to the load of the step: the squared residual in the norm of the
+// energy.
 KERNEL void newton_check()
 {
     real newton = scalar(scalar_newton) + real(1.0f);
@@ -124,7 +126,7 @@ KERNEL void newton_check()
     real left = load > 0.0f ? scalar(scalar_slope) * reciprocal(load) : real(0.0f);
     set_scalar(scalar_newton, newton);
     set_scalar(scalar_residual_last, left <= 0.0f ? real(0.0f) : left * inverse_sqrt(left));
-    // After so many, only what is not solved at all goes on.
+    // after the iterations that usually suffice, only an unsolved step goes on
     real tolerance = newton + 0.5f > enough_iterations() ? real(solved_residual) : newton_tolerance();
     bool solved = scalar(scalar_slope) <= tolerance * tolerance * load;
     bool refused = !(scalar(scalar_step) > 0.0f), done = solved || refused;
@@ -132,7 +134,7 @@ KERNEL void newton_check()
     if (done) set_scalar(scalar_newton_done, real(1.0f));
 }
 
-// Between the halves of a step's iterations: normal forces are not what they were taken for, so there is something left.
+// Between the halves of a step's iterations: the normal forces have changed, so the iteration goes on.
 KERNEL void contact_check()
 {
     if (total(sum_contact_change) > newton_tolerance() * newton_tolerance() * scalar(scalar_load))
@@ -160,8 +162,8 @@ KERNEL void solve_end()
     set_scalar(scalar_iterations_sum, scalar(scalar_iterations_sum) + iterations);
     set_scalar(scalar_iterations_max, largest(scalar(scalar_iterations_max), iterations));
     set_scalar(scalar_residual_max, larger(scalar(scalar_residual_max), residual));
-    // The implicit step's own balance: springs give up S - S', contact and inertia's surplus f . t is worked against, and
-    // a converged step loses nothing but what its length costs. The rest was lost, or won, by not converging.
+    // Energy balance of the implicit step: springs release S - S', and contact and inertia take the work f . t. A converged
+    // step loses only what its length costs. The rest was lost or gained for lack of convergence.
     real springs = total(sum_spring_energy), work = total(sum_lost);
     bool counts = scalar(scalar_started) > 0.0f && !is_acad();
     real lost = counts ? scalar(scalar_spring_energy) - springs + work : real(0.0f);

@@ -1,23 +1,23 @@
-// The solver on sheets: geometric multigrid. A level is a sheet of half as many rows and columns; interpolation is
-// bilinear, and a coarse operator is what it makes of the fine one (Galerkin). Operators are kept by their couplings B,
-// and applied to differences:  (A x)_i = s_i x_i + sum_j B_ij (x_i - x_j),  so that what moves as a whole feels only s,
-// however stiff B is. Couplings of a sheet's level reach its eight neighbours; those of bend springs are folded onto
-// them, k (a - c)^2 as 2 k ((a - b)^2 + (b - c)^2), which is the same for smooth shapes and never softer.
+// The solver on sheets: geometric multigrid. Each level is a sheet of half as many rows and columns; interpolation is
+// bilinear, and coarse operators are Galerkin's. Operators are stored by their couplings B and applied to differences: (A
+// x)_i = s_i x_i + sum_j B_ij (x_i - x_j). A rigid displacement thus feels only s, however stiff B is. Couplings reach the
+// eight neighbours. Couplings of bend springs are folded onto them: k (a - c)^2 becomes 2 k ((a - b)^2 + (b - c)^2), which
+// is equal for smooth shapes and never softer.
 // Source: Trottenberg, Oosterlee, Schueller, "Multigrid", 2001.
 
-// Places of a sheet: the four forward neighbours by structural and shear springs, and the two by bend springs.
+// Offsets on a sheet: the four forward neighbours by structural and shear springs, and the two by bend springs.
 KERNEL int forward_offset(int k)
 {
     return k == 0 ? 1 : k == 1 ? level.stride - 1 : k == 2 ? level.stride : k == 3 ? level.stride + 1 : k == 4 ? 2 : 2 * level.stride;
 }
 
-// 1 where the sheet has such a spring, and ACAD has marked it.
+// 1 if the sheet has such a spring and ACAD has marked it.
 KERNEL real spring_scale(int k, int o)
 {
     return load((is_acad() ? plane_mark : plane_scale) + k, o);
 }
 
-// Of the spring k that begins at a node.
+// The limit of spring k that begins at a node.
 KERNEL LimitCurve sheet_limit(int k, int first)
 {
     LimitCurve curve = sheet_curve(k);
@@ -25,7 +25,7 @@ KERNEL LimitCurve sheet_limit(int k, int first)
     return remembered(curve, load(plane_slip + k, first), load(plane_stiff + k, first), softest(sheet_class(k)));
 }
 
-// A spring as the node at i has it, which it draws towards the one at j; nothing where `scale` is 0. It begins at `first`.
+// The spring that pulls node i towards node j; zero if `scale` is 0. It begins at node `first`.
 KERNEL SpringShare sheet_spring(int k, int i, int j, real scale, int first)
 {
     vec3 start = load3(plane_start, j) - load3(plane_start, i), moved = load3(plane_way, j) - load3(plane_way, i);
@@ -55,7 +55,7 @@ KERNEL void sheet_multipliers(int o)
     set_multiplier(o, choose(scalar(scalar_idle) > 0.0f, real(0.0f), most));
 }
 
-// What the limits of a node's forward springs remember of the step. The sum is what that adds to their energy.
+// The memory of the limits of a node's forward springs after a step. The sum is the change of their energy.
 KERNEL void sheet_multiply(int o)
 {
     vec3 x = load3(plane_start, o) + load3(plane_way, o);
@@ -71,7 +71,7 @@ KERNEL void sheet_multiply(int o)
     }
 }
 
-// A node while its springs are added: the force on it, and the rows of the operator.
+// Accumulator of a node's springs: the force on it, and its rows of the operator.
 struct SheetNode
 {
     vec3 r;
@@ -88,7 +88,7 @@ KERNEL SpringShare no_spring()
     return share;
 }
 
-// Whether the couplings to the neighbour k and to the one behind it have a bend spring folded in, and which.
+// Whether a bend spring is folded into the couplings to neighbour k and to the one opposite it, and which.
 KERNEL bool is_bent(int k)
 {
     return has_bend() && (k == 0 || k == 2);
@@ -98,7 +98,7 @@ KERNEL int bend_along(int k)
     return k == 0 ? 4 : 5;
 }
 
-// Forces and the operator of a node, springs apart: inertia and contact. They go by sums[1] and [2].
+// Force on a node and its rows of the operator without springs: inertia and contact. Their energies go to sums[1] and [2].
 KERNEL SheetNode sheet_node(int o)
 {
     vec3 t = load3(plane_way, o);
@@ -114,8 +114,8 @@ KERNEL SheetNode sheet_node(int o)
     return node;
 }
 
-// With the springs to the neighbour k and to the one opposite it; those of the bend springs on the same line; and the
-// block of the one that leads across the node.
+// Adds the springs to neighbour k and to the one opposite it, the bend springs on the same line, and the block of the bend
+// spring across the node.
 KERNEL SheetNode with_springs(SheetNode node, int k, int o, SpringShare onward, SpringShare back, SpringShare far_onward,
                               SpringShare far_back, Symmetric across)
 {
@@ -136,7 +136,7 @@ KERNEL SheetNode with_springs(SheetNode node, int k, int o, SpringShare onward, 
         }
     }
     node.diagonal = plus(plus(node.diagonal, to_j), to_i);
-    // A coupling to a pinned node is a support of this one.
+    // A coupling to a pinned node adds to this node's row sum.
     real held_j = choose(load(plane_mass, j) > 0.0f, real(0.0f), real(1.0f));
     real held_i = choose(load(plane_mass, i) > 0.0f, real(0.0f), real(1.0f));
     if (any_lane(held_j + held_i > 0.0f))
@@ -156,8 +156,8 @@ KERNEL void leave_gathered(int o, SheetNode node, real energy, real taut)
     sums[0] = sums[0] + energy;
 }
 
-// A spring is counted where it begins, and a force is the exact opposite at its other end: whether it is computed once
-// (SolverKernels::sheet_gather_rows) or at both ends, as here, makes no difference.
+// A spring is counted at its first node, and its forces at both ends are exact opposites. Computing it once
+// (SolverKernels::sheet_gather_rows) or at both ends, as here, gives the same bits.
 KERNEL void sheet_forces(int o)
 {
     SheetNode node = sheet_node(o);
@@ -185,7 +185,7 @@ KERNEL void sheet_forces(int o)
     leave_gathered(o, node, energy, taut);
 }
 
-// The last look of a step, which no linear system follows: energies alone.
+// The last evaluation of a step: energies alone, since no linear system follows.
 KERNEL void sheet_energy(int o)
 {
     real energy = real(0.0f), taut = real(0.0f);
@@ -216,18 +216,18 @@ KERNEL void sheet_gather(int o)
         sheet_forces(o);
 }
 
-// B (x_i - x_j) of the coupling from a node to its forward neighbour k; j is left with the negative of it.
+// B (x_i - x_j) of the coupling from a node to its forward neighbour k; node j gets the negative.
 KERNEL vec3 coupling_force(int blocks, int k, int x, int o)
 {
     return product(load6(blocks, o), load3(x, o) - load3(x, o + forward_offset(k)));
 }
-// The same of the coupling that leads here, from the node i.
+// The same for the coupling from node i to this one.
 KERNEL vec3 coupling_force_behind(int blocks, int k, int x, int i)
 {
     return product(load6_anywhere(blocks, i), load3(x, i) - load3(x, i + forward_offset(k)));
 }
 
-// (A x) of a node, from the forces of the couplings that lead ahead from it, and of those that come from behind.
+// (A x) of a node, from the forces of its forward couplings and of those from behind.
 KERNEL vec3 sum_of_forces(int x, int o, vec3 ahead[4], vec3 behind[4])
 {
     vec3 y = product(load6(plane_row_sum, o), load3(x, o));
@@ -254,22 +254,22 @@ KERNEL vec3 row_product(int x, int o)
     return y;
 }
 
-// The operator of this level from that of the finer one, by bilinear interpolation P: P^T A P, columns first and then rows.
-// What is between has the rows of the finer level and the columns of this one.
+// The operator of this level from the finer one, by bilinear interpolation P: P^T A P, first columns, then rows. The
+// intermediate operator has the rows of the finer level and the columns of this one.
 struct HalfCoarse
 {
     Symmetric row_sum, diagonal, block_0, block_1, block_2, block_3;
 };
 
-// What of a fine node does not lead along its row: its row sum, and the couplings to the rows below and above.
+// The part of a fine node that does not couple along its row: its row sum, and the couplings to the rows below and above.
 KERNEL Symmetric held_across(Symmetric row_sum, Symmetric below_1, Symmetric below_2, Symmetric below_3, Symmetric above_1,
                              Symmetric above_2, Symmetric above_3)
 {
     return plus(plus(plus(row_sum, below_1), plus(below_2, below_3)), plus(plus(above_1, above_2), above_3));
 }
 
-// A coarse node over the fine one at `here`, between two that are `left` and `right`. With the weights 1/2, 1, 1/2 the
-// coupling along the row is (b + b' - h) / 4, h being what holds the fine node that both coarse ones share.
+// A coarse node at the fine node `here`, between the fine nodes `left` and `right`. With the weights 1/2, 1, 1/2 the
+// coupling along the row is (b + b' - h) / 4, where h is that part of the fine node between the two coarse ones.
 KERNEL Symmetric half_along(Symmetric along_here, Symmetric along_right, Symmetric held_right)
 {
     return scaled(minus(plus(along_here, along_right), held_right), real(0.25f));
@@ -334,14 +334,14 @@ KERNEL HalfCoarse half_coarse_at(int i)
     return between;
 }
 
-// The rows: of the fine row over this one, and of those above and below; of the columns beside, what leads here.
+// Combines rows: the fine row over this one, those above and below it, and couplings from the neighbouring columns.
 KERNEL void leave_coarsened(int o, HalfCoarse above, HalfCoarse here, HalfCoarse below, Symmetric above_right_1,
                             Symmetric here_right_1, Symmetric below_left_0)
 {
     Symmetric diagonal = minus(plus_scaled(here.diagonal, plus(above.diagonal, below.diagonal), real(0.25f)),
                                plus(above.block_2, here.block_2));
     Symmetric slanted = plus(plus(above_right_1, here.block_3), plus(here_right_1, above.block_3));
-    mask inside = inside_level();  // what lies beyond a row's end is padding, and stays empty
+    mask inside = inside_level();  // padding beyond the end of a row stays zero
     store6(plane_row_sum, o, where_else_zero(inside, half_sum(here.row_sum, above.row_sum, below.row_sum)));
     store6(plane_block, o,
            where_else_zero(inside, plus_scaled(plus_scaled(here.block_0, slanted, real(0.5f)),
@@ -358,7 +358,7 @@ KERNEL void leave_coarsened(int o, HalfCoarse above, HalfCoarse here, HalfCoarse
     store6(plane_factor, o, where_else_zero(inside, factored(diagonal, real(0.0f))));
 }
 
-// The node of the finer level that lies over this one is at f.
+// f: the node of the finer level at the place of this one.
 KERNEL void sheet_coarsen(int o, int f)
 {
     int above = f - finer.stride, below = f + finer.stride;
@@ -366,7 +366,7 @@ KERNEL void sheet_coarsen(int o, int f)
                     half_back_at(f + 2), half_along_at(below - 2));
 }
 
-// The residual of the finer level, gathered, and the first correction of this one.
+// The residual of the finer level, restricted, and the first correction of this level.
 KERNEL void sheet_restrict(int o, int f)
 {
     vec3 r = vec3(real(0.0f), real(0.0f), real(0.0f));
@@ -379,7 +379,7 @@ KERNEL void sheet_restrict(int o, int f)
     store3(plane_correction, o, solved(factor, r) * relaxation());
 }
 
-// The correction of this level, added to the four nodes of the finer one at and after f.
+// Adds the correction of this level to the four nodes of the finer one at and after f.
 KERNEL void sheet_prolong(int o, int f)
 {
     vec3 here = load3(source_plane(), o), right = load3(source_plane(), o + 1);
@@ -389,7 +389,7 @@ KERNEL void sheet_prolong(int o, int f)
                (here + right + below + diagonal) * real(0.25f));
 }
 
-// The operator of the last level, dense.
+// The operator of the coarsest level, dense.
 KERNEL void bottom_assemble()
 {
     for (int row = 0; row < level.rows; ++row)

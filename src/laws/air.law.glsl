@@ -1,9 +1,9 @@
 // Wind: drag and lift of a triangle in moving air.
 
-// Force on each of the three corners, N. With u the wind against the triangle, A n its area vector, both sides alike:
+// Force on each of the three corners, N. u is the wind relative to the triangle, A n its area vector; both sides are alike:
 //   drag = 1/2 rho C_d A |u . n| u                       along u
 //   lift = 1/2 rho C_l A |u . n| (|u| n' - (u . n') u / |u|)   across u, n' being n turned towards u
-// Source: flat-plate model, as in Wilson and Ling, "Practical wind for cloth"; a third goes to each corner.
+// Source: flat-plate model, as in Wilson and Ling, "Practical wind for cloth"; each corner gets a third.
 LAW vec3 wind_force(vec3 x0, vec3 x1, vec3 x2, vec3 v0, vec3 v1, vec3 v2, vec3 wind, real density, real drag, real lift)
 {
     real third = 0.33333334f;

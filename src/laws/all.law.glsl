@@ -1,4 +1,4 @@
-// Every law, in the order in which they use each other.
+// All laws; each uses only those above it.
 #include "arithmetic.law.glsl"
 #include "spring.law.glsl"
 #include "integration.law.glsl"

@@ -1,5 +1,5 @@
-// Portable arithmetic: what the other laws are made of. Only +, -, *, comparison and choice, so that a law gives the
-// same bits wherever those are correctly rounded: on every CPU, and on every GPU that keeps Vulkan's promise.
+// Portable arithmetic, of which the other laws consist: only +, -, *, comparison and choice. A law then gives the same bits
+// wherever these are correctly rounded: on every CPU, and on every GPU that conforms to Vulkan.
 
 // a . b, summed from left to right
 LAW real dot3(vec3 a, vec3 b)
@@ -13,7 +13,7 @@ LAW vec3 cross3(vec3 a, vec3 b)
     return vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 
-// The larger of two; b when either is not a number.
+// The larger of two; b if either is NaN.
 LAW real largest(real a, real b)
 {
     return choose(a > b, a, b);
@@ -26,9 +26,9 @@ LAW real magnitude(real a)
 }
 
 // 1 / sqrt(a):  r <- r (3/2 - (a/2 r) r), from a seed that halves the exponent.
-// Each step squares the relative error (times 3/2): 3.4e-2, 1.8e-3, 4.7e-6, 3.3e-11, so that in float three steps
-// reach rounding (largest relative error 1.8e-7 over all normal floats); double takes four.
-// At a = 0 the result is large but finite, so that 0 * inverse_sqrt(0) = 0: a vector of no length has no direction.
+// Each step squares the relative error (times 3/2): 3.4e-2, 1.8e-3, 4.7e-6, 3.3e-11. In float three steps reach rounding
+// (largest relative error 1.8e-7 over all normal floats); double takes four.
+// At a = 0 the result is large but finite, so that 0 * inverse_sqrt(0) = 0: a zero vector has no direction.
 // Source: the seed is that of Lomont, "Fast inverse square root", 2003; the iteration is Newton's.
 LAW real inverse_sqrt(real a)
 {
@@ -39,7 +39,7 @@ LAW real inverse_sqrt(real a)
     return r;
 }
 
-// a / |a|, and 0 for a vector of no length
+// a / |a|; 0 for the zero vector
 LAW vec3 direction(vec3 a)
 {
     return a * inverse_sqrt(dot3(a, a));

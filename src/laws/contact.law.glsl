@@ -1,16 +1,16 @@
 // Contact with solid shapes. A gap is the signed distance to the surface in m, negative inside; laws that return
 // vec4 return (unit normal outwards, gap).
 
-// What a kernel knows of a collider at one instant. `kind` and `response` are the same for all nodes.
+// A collider at one time. `kind` and `response` are the same for all nodes.
 struct Collider
 {
     int kind;           // 0 sphere, 1 plane, 2 box, 3 capsule, 4 tapered capsule: the order of the variant Collider (scene.hpp)
-    int response;       // 0 Coulomb, 1 as the paper prints it, 2 Coulomb, and nodes that have sunk into it rise
-    vec3 centre;        // m; a plane's point
+    int response;       // 0 Coulomb, 1 as the paper prints it, 2 Coulomb, and nodes inside it rise
+    vec3 centre;        // m; a point of a plane
     vec3 axis_x;        // unit vectors of a box; axis_y is a plane's normal and a capsule's direction
     vec3 axis_y;
     vec3 axis_z;
-    vec3 half_size;     // m; of a capsule, y is half the distance of its ends; x and z: see gap_tapered_capsule
+    vec3 half_size;     // m; of a capsule, y is half the distance between its ends; x, z: see gap_tapered_capsule
     real radius;        // m; of a tapered capsule, in the middle
     real friction;      // Coulomb's mu
     vec3 velocity;      // m/s
@@ -23,7 +23,7 @@ LAW vec4 gap_sphere(vec3 p, vec3 centre, real radius)
     vec3 d = p - centre;
     real length2 = dot3(d, d);
     real inverse_length = inverse_sqrt(length2);
-    vec3 n = choose(length2 > 0.0f, d * inverse_length, vec3(0.0f, 1.0f, 0.0f));  // at the centre any way out will do
+    vec3 n = choose(length2 > 0.0f, d * inverse_length, vec3(0.0f, 1.0f, 0.0f));  // at the centre any direction is valid
     return vec4(n, length2 * inverse_length - radius);
 }
 
@@ -41,9 +41,9 @@ LAW vec4 gap_capsule(vec3 p, vec3 centre, vec3 axis_direction, real half_length,
     return gap_sphere(p, centre + axis_direction * along, radius);
 }
 
-// The hull of two spheres holds a sphere at every point of the segment: centre c + t a, radius r + s t. The gap to it,
+// The hull of two spheres is the union of spheres along the segment: centre c + t a, radius r + s t. The gap to it,
 //   f(t) = sqrt((t - u)^2 + w^2) - r - s t,    u = (p - c) . a,  w = |p - c - u a|,
-// is convex, and least at t = u + s w / sqrt(1 - s^2), or at the end next to it. `growth` is s, `lean` is s / sqrt(1 - s^2).
+// is convex, with its minimum at t = u + s w / sqrt(1 - s^2), or at the nearest end. `growth` is s, `lean` is s / sqrt(1 - s^2).
 LAW vec4 gap_tapered_capsule(vec3 p, vec3 centre, vec3 axis_direction, real half_length, real radius, real growth, real lean)
 {
     vec3 d = p - centre;
@@ -57,14 +57,14 @@ LAW vec4 gap_tapered_capsule(vec3 p, vec3 centre, vec3 axis_direction, real half
     return gap_sphere(p, nearest, radius_there);
 }
 
-// Outside, the distance to the nearest point of the box; inside, the way out through the nearest face.
+// Outside: the distance to the nearest point of the box. Inside: the way out through the nearest face.
 LAW vec4 gap_box(vec3 p, vec3 centre, vec3 axis_x, vec3 axis_y, vec3 axis_z, vec3 half_size)
 {
     vec3 d = p - centre;
     vec3 q = vec3(dot3(d, axis_x), dot3(d, axis_y), dot3(d, axis_z));
     vec3 side = vec3(choose(q.x < 0.0f, real(-1.0f), real(1.0f)), choose(q.y < 0.0f, real(-1.0f), real(1.0f)),
                      choose(q.z < 0.0f, real(-1.0f), real(1.0f)));
-    vec3 beyond = vec3(magnitude(q.x), magnitude(q.y), magnitude(q.z)) - half_size;  // per axis; negative within
+    vec3 beyond = vec3(magnitude(q.x), magnitude(q.y), magnitude(q.z)) - half_size;  // by axis; negative inside
 
     vec3 out_of = vec3(largest(beyond.x, real(0.0f)), largest(beyond.y, real(0.0f)), largest(beyond.z, real(0.0f)));
     real length2 = dot3(out_of, out_of);
@@ -100,8 +100,8 @@ LAW vec3 collider_surface_velocity(Collider collider, vec3 p)
     return collider.velocity + cross3(collider.spin, p - collider.centre);
 }
 
-// Coulomb: against the surface, remove the approaching normal velocity, let friction take at most mu times as much
-// from the tangential one, keep the rest:
+// Coulomb friction. Relative to the surface: removes the approaching normal velocity, reduces the tangential one by at most
+// mu times as much, keeps the rest:
 //   r = v - v_s,  r_n = r . n,  r_t = r - r_n n,  v' = v_s + max(r_n, 0) n + max(1 - mu max(-r_n, 0) / |r_t|, 0) r_t
 LAW vec3 contact_velocity(vec3 velocity, vec3 surface_velocity, vec3 n, real friction)
 {
@@ -113,8 +113,8 @@ LAW vec3 contact_velocity(vec3 velocity, vec3 surface_velocity, vec3 n, real fri
     return surface_velocity + tangential * kept + n * largest(normal_part, real(0.0f));
 }
 
-// The predicted position p' = x + dt v, put on the surface; along the surface it moves with the new velocity, so that
-// a node that sticks does not creep:  p = p' - gap n + dt (I - n n^T) (v' - v)
+// The predicted position p' = x + dt v, projected onto the surface. Along the surface it moves with the new velocity, so
+// that a sticking node does not creep:  p = p' - gap n + dt (I - n n^T) (v' - v)
 LAW vec3 contact_position(vec3 predicted, vec3 n, real gap, vec3 velocity, vec3 next_velocity, real dt)
 {
     vec3 change = next_velocity - velocity;
@@ -122,30 +122,32 @@ LAW vec3 contact_position(vec3 predicted, vec3 n, real gap, vec3 velocity, vec3 
     return predicted - n * gap + tangential * dt;
 }
 
-// Algorithm 4 of the cloth paper as printed:  v' = d / |d| + v / |v|,  with d = p_0 - O outwards.
-// It has no units of velocity; v = 0, which divides by zero as printed, adds nothing here.
+// Algorithm 4 of the cloth paper as printed:  v' = d / |d| + v / |v|,  with d = p_0 - O outwards. It does not have the unit
+// of a velocity. v = 0, which divides by zero as printed, adds nothing here.
 LAW vec3 contact_velocity_paper(vec3 velocity, vec3 n)
 {
     return n + direction(velocity);
 }
 
-// p_1 = O + d / |d| (r + offset), for any shape: out along the normal at the position before the step.
+// p_1 = O + d / |d| (r + offset), for any shape: moved out along the normal at the position before the step.
 LAW vec3 contact_position_paper(vec3 before, vec3 n_before, real gap_before)
 {
     return before - n_before * gap_before;
 }
 
-// How far a depth, m, is beyond one that contact leaves a node at. Where nodes start as deep as that, or a collider is put over
-// them, its response is 2 until they are out.
+// Excess of a depth, m, over the depth that contact leaves. A collider whose nodes are deeper, from the start or after a
+// jump, has the response 2 until they are out.
 LAW real sunk_depth(real depth)
 {
     return largest(depth - 0.0009765625f, real(0.0f));
 }
 
-// The speed outward, m/s, of such a node after a step of dt, from the one that it would have. It is let out by at most 1000 m/s2, up
-// to 8/s of its depth and 1 m/s, so that it arrives at the surface without speed, and springs that pull harder keep it where it is:
+// The outward speed, m/s, of such a node after a step of dt, from its speed without contact. Its acceleration is at most
+// 1000 m/s2, and its speed at most 8/s of its depth and 1 m/s, so that it reaches the surface without speed; stronger
+// springs keep it inside:
 //   r' = max(r, min(r + 1000 dt, 8 depth, 1))
-// What puts it on the surface at once stretches the springs around it many times over, and they throw the cloth away.
+// A projection onto the surface in one step would stretch the springs around the node many times over, and throw the cloth
+// away.
 LAW real rising_speed(real speed, real depth, real dt)
 {
     real wanted = 8.0f * depth, faster = speed + 1000.0f * dt;
@@ -159,8 +161,8 @@ struct Motion
     vec3 velocity;  // m/s
 };
 
-// One collider's say in a step: `now` is the node before the step, `next` what the integrator made of it. The cloth
-// keeps `thickness` between itself and the surface; a pinned node (inverse mass 0) is not moved.
+// Contact with one collider in a step: `now` is the node before the step, `next` the integrator's result. The node keeps the
+// distance `thickness` from the surface; a pin (inverse mass 0) is not moved.
 LAW Motion contact_step(Motion now, Motion next, Collider collider, real thickness, real inverse_mass, real dt)
 {
     vec4 contact = collider_gap(collider, next.position);

@@ -1,7 +1,7 @@
-// The laws as GLSL: the same text that C++ compiles in laws.hpp. `precise` forbids contraction, so that the bits are
+// The laws as GLSL, from the same text that laws.hpp compiles as C++. `precise` forbids contraction, so that the bits equal
 // those of the CPU; a test checks every floating-point instruction of every compute shader for it.
 #ifdef FAST_MATH
-#define precise  // free to be contracted, see SimulationOptions::fast_math
+#define precise  // may be contracted, see SimulationOptions::fast_math
 #endif
 #define LAW precise
 #define mask bool
@@ -23,7 +23,7 @@ bool is_finite(double a) { return (unpackDouble2x32(a).y & 0x7ff00000u) != 0x7ff
 #define real float
 #ifdef FAST_MATH
 const int inverse_sqrt_steps = 0;
-float inverse_sqrt_seed(float a) { return inversesqrt(max(a, 1.17549435e-38f)); }  // of 0, too, a finite number
+float inverse_sqrt_seed(float a) { return inversesqrt(max(a, 1.17549435e-38f)); }  // finite at 0, too
 #else
 const int inverse_sqrt_steps = 3;
 precise float inverse_sqrt_seed(float a) { return uintBitsToFloat(0x5f375a86u - (floatBitsToUint(a) >> 1)); }

@@ -1,10 +1,10 @@
-// The laws as C++: the same text that the shaders compile, once for each number type T.
+// The laws as C++, from the same text that the shaders compile, once for each number type T.
 //   Laws<double>     the oracle
 //   Laws<float>      one node at a time
 //   Laws<Pack<W>>    W nodes at a time (src/backend/cpu/pack.hpp)
-// T needs the operators + - (both kinds) * < > >= and, through NumberTraits<T>, a choice, a seed for the
-// inverse square root and a test for finiteness. Files of this build are compiled with -ffp-contract=off:
-// contraction decides equality.
+// T needs the operators + - (unary and binary) * < > >= and, through NumberTraits<T>, a choice, a seed for
+// the inverse square root and a test for finiteness. Compile with -ffp-contract=off: contraction would change
+// bits.
 #pragma once
 
 #include <bit>

@@ -1,5 +1,5 @@
-// What a class template over a number type T needs to hold the laws: included inside the class, by Laws and
-// by who adds text of its own to the laws (backend/host/solver_kernels.hpp).
+// The definitions that a class template over a number type T needs around the laws. Included inside the
+// class, by Laws and by classes that add to the laws (backend/host/solver_kernels.hpp).
 using real = T;
 using vec3 = Vector3<T>;
 using vec4 = Vector4<T>;

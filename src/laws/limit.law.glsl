@@ -1,44 +1,44 @@
-// Springs with a limit, as the implicit step sees them: an energy, its force, and how stiff it is along and across.
+// Springs with a limit in the implicit step: energy, force, and stiffness along and across the spring.
 //
 //   E(l) = 1/2 k e^2 + 1/2 K max(0, e - s l0 + a)^2 + 1/2 K' max(0, -e - s l0 - a)^2,   e = l - l0
 //
-// k is the stiffness below the limit s, 1 / K the compliance beyond it, K' = K when compression is resisted too, else 0.
-// A constraint of the papers is k = 0, s = 0: eq. (5) of the cloth paper made soft by its compliance, and unilateral.
-// a is 0 for a penalty; of a limit that remembers its force it is that force over K: an augmented Lagrangian.
+// k is the stiffness below the limit s, 1 / K the compliance beyond it; K' = K if compression is resisted too, else 0. A
+// constraint of the papers is k = 0, s = 0: eq. (5) of the cloth paper, softened by its compliance, and unilateral. a is 0
+// for a penalty. For a limit that remembers its force, a is that force over K: an augmented Lagrangian.
 
 struct LimitCurve
 {
-    int kind;         // 0; 1: k alone is not zero, a plain spring; 2: K alone, a thread that does not give
+    int kind;         // 0: general; 1: only k is not zero, a plain spring; 2: only K, an inextensible thread
     real below;       // k, N/m
     real limit;       // s
     real beyond;      // K, N/m
     real compressed;  // K', N/m
     real damping;     // c / dt, N/m: resists the change of length during the step
     real slip;        // m: the limit acts as if the spring were this much longer, see renewed_limit
-    real reach;       // the stretch from which on K is in the Hessian; -1: always
+    real reach;       // the strain from which K is in the Hessian; -1: always
     real kept;        // the part of K that stays in the Hessian where the limit is slack
 };
 
-// Slack by less than this part of its length a limit counts as taut: what rests at its length does so whatever rounding
-// makes of it.
+// A limit counts as taut if it is slack by less than this part of its length: rounding does not make a spring at rest length
+// slack.
 LAW real kept_of_limit(LimitCurve curve, real beyond_limit, real rest_length)
 {
     return choose(beyond_limit + rest_length * real(7.62939453125e-6f) > 0.0f, real(1.0f), curve.kept);
 }
 
-// What a spring does at its length: on node i the force is `force` n, n = (x_j - x_i) / l.
+// A spring at its present length: the force on node i is `force` n, n = (x_j - x_i) / l.
 struct SpringState
 {
     real force;   // N, positive pulls
     real along;   // N/m, the Hessian along n
     real across;  // N/m, the Hessian across n
     real energy;  // J
-    real multiplier;  // N, what the limit adds to the force of the stiffness below it
+    real multiplier;  // N, the limit's part of the force
 };
 
-// The Hessian is the one that Newton's method wants, not the exact one: a slack thread keeps a part of its stiffness K along
-// n, so that it is taut before it is overstretched, and the stiffness across n, f / l, is never negative. A spring that has
-// a stiffness below its limit has K from its limit on alone: k has to be free to shorten it.
+// The Hessian is modified for Newton's method: a slack thread keeps a part of its stiffness K along n, so that it becomes
+// taut before it is overstretched, and the stiffness across n, f / l, is never negative. For a spring with a stiffness below
+// its limit, K acts from its limit on only: k must be able to shorten the spring.
 LAW SpringState limited_spring(LimitCurve curve, real length2, real inverse_length, real rest_length)
 {
     real extension = length2 * inverse_length - rest_length;
@@ -85,7 +85,7 @@ LAW SpringState taut_spring(LimitCurve curve, real length2, real inverse_length,
     return state;
 }
 
-// By the kind of the curve, which is the same for all springs of a class: two of them need but a part of the law.
+// Chosen by the kind of the curve, which is the same for all springs of a class: kinds 1 and 2 need only part of the law.
 LAW SpringState spring_state(LimitCurve curve, real length2, real inverse_length, real rest_length)
 {
     if (curve.kind == 2) return taut_spring(curve, length2, inverse_length, rest_length);
@@ -93,24 +93,24 @@ LAW SpringState spring_state(LimitCurve curve, real length2, real inverse_length
     return limited_spring(curve, length2, inverse_length, rest_length);
 }
 
-// What a limit remembers of a step for the next one.
+// What a limit keeps from one step to the next.
 struct LimitMemory
 {
     real slip;       // m
     real stiffness;  // N/m, K above
 };
 
-// 1 / a of a positive number.
+// 1 / a, for a > 0
 LAW real one_over(real a)
 {
     real root = inverse_sqrt(a);
     return root * root;
 }
 
-// The multiplier method, one update a step: the force that the limit ended with is what it begins with, and K only makes
-// it right. With a' = f / K0 and K = K0 / (1 + K0 c) a limit at rest has its true compliance c, whatever K0 is. K0 is as soft
-// as the cloth allows (ClothModel::softest_limit), but of the few springs that are beyond their limit by more than a
-// thousandth it grows, by 4 at most in a step.
+// The method of multipliers, with one update per step: a limit begins with the force at which it ended, and K only corrects
+// it. With a' = f / K0 and K = K0 / (1 + K0 c) a limit at rest has its true compliance c for any K0. K0 is as soft as the
+// cloth allows (ClothModel::softest_limit). For the few springs beyond their limit by more than a thousandth it grows, at
+// most by 4 per step.
 //   strain: (l - l0) / l0 beyond the limit. Source: Hestenes, "Multiplier and gradient methods", 1969.
 LAW LimitMemory renewed_limit(real multiplier, real strain, real stiffness, real compliance, real softest, real stiffest)
 {

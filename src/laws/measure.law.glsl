@@ -1,4 +1,4 @@
-// Measures of a state, gathered per node and merged by one fixed tree on every backend.
+// Measures of a state, gathered by node and merged in one fixed tree on every backend.
 
 struct Measure
 {
@@ -40,7 +40,7 @@ LAW Measure measure_merge(Measure a, Measure b)
     return m;
 }
 
-// One spring's share, given to the node of lower index. `counts`: structural and shear springs.
+// Adds one spring, counted at its node of lower index. `counts`: structural and shear springs.
 LAW Measure measure_spring(Measure m, vec3 xi, vec3 xj, real rest_length, real stiffness, mask counts)
 {
     real stretch = spring_stretch(xi, xj, rest_length);
@@ -50,7 +50,7 @@ LAW Measure measure_spring(Measure m, vec3 xi, vec3 xj, real rest_length, real s
     return m;
 }
 
-// One node's own share, with its mass in kg (a pinned node has one too).
+// Adds one node, with its mass in kg (a pin has one too).
 LAW Measure measure_node(Measure m, vec3 position, vec3 velocity, real mass, vec3 gravity_direction)
 {
     real speed2 = dot3(velocity, velocity);

@@ -1,6 +1,6 @@
 // Springs: eq. (1)-(2) of the cloth paper.
 
-// The force of a spring by what is between its ends: d = x_j - x_i, v_j - v_i, d . d and 1 / |d|.
+// The force of a spring from the differences of its ends: d = x_j - x_i, v_j - v_i, d . d and 1 / |d|.
 LAW vec3 spring_pull(vec3 d, vec3 relative_velocity, real length2, real inverse_length, real rest_length, real stiffness,
                      real damping)
 {
@@ -10,7 +10,7 @@ LAW vec3 spring_pull(vec3 d, vec3 relative_velocity, real length2, real inverse_
 
 // Force on node i of the spring to node j, N:
 //   f_i = (k (l - l0) + c (v_j - v_i) . n) n,   n = (x_j - x_i) / l,   f_j = -f_i bit for bit.
-// Coincident nodes have no direction and push nowhere.
+// Coincident nodes have no direction, so their spring exerts no force.
 LAW vec3 spring_force(vec3 xi, vec3 xj, vec3 vi, vec3 vj, real rest_length, real stiffness, real damping)
 {
     vec3 d = xj - xi;
@@ -18,13 +18,13 @@ LAW vec3 spring_force(vec3 xi, vec3 xj, vec3 vi, vec3 vj, real rest_length, real
     return spring_pull(d, vj - vi, length2, inverse_sqrt(length2), rest_length, stiffness, damping);
 }
 
-// The quadratic bending energy as springs of no length at rest (body/bending.hpp), N:  f_i = w (x_j - x_i)
+// The quadratic bending energy as springs of rest length zero (body/bending.hpp), N:  f_i = w (x_j - x_i)
 LAW vec3 bending_force(vec3 xi, vec3 xj, real weight)
 {
     return (xj - xi) * weight;
 }
 
-// w (x_j - x_i)^2 / 2, J; a pair's part of an energy whose sum is never negative, and so it may be
+// w (x_j - x_i)^2 / 2, J. The part of one pair may be negative; their sum is not.
 LAW real bending_energy(vec3 xi, vec3 xj, real weight)
 {
     vec3 d = xj - xi;

@@ -1,27 +1,27 @@
-// The volume of a closed triangle mesh, its gradient, and the multiplier that keeps it: eq. (7)-(15) of the volume paper,
-// with the gradient put right (docs/physics.md, "Volume").
+// The volume of a closed triangle mesh, its gradient, and the multiplier of the volume constraint: eq. (7)-(15) of the
+// volume paper, with the gradient corrected (docs/physics.md, "Volume").
 //
-// Laws work with six times the volume: 6 V = sum a . (b x c) over the triangles, so that no factor is rounded.
+// Laws use six times the volume, 6 V = sum a . (b x c) over the triangles, so that no factor is rounded.
 
 // --- The gradient, gathered around a node -----------------------------------------------------------------------------
 //
-// 6 dV/dx = sum over the ring of (b - x) x (c - x). For a closed ring that equals the sum of b x c about any point;
-// about the node itself nothing cancels, however far from the origin the body is.
+// 6 dV/dx = sum over the ring of (b - x) x (c - x). For a closed ring that equals the sum of b x c about any point. About
+// the node itself nothing cancels, however far the body is from the origin.
 LAW vec3 ring_add(vec3 gradient, vec3 to_neighbour, vec3 to_next)
 {
     return gradient + cross3(to_neighbour, to_next);
 }
 
-// A force, and one that turns about an axis: f = F + tau x p
+// A force plus one that turns about an axis: f = F + tau x p
 LAW vec3 region_force(vec3 force, vec3 torque, vec3 position)
 {
     return force + cross3(torque, position);
 }
 
-// --- Directions that are blocked --------------------------------------------------------------------------------------
+// --- Blocked directions ------------------------------------------------------------------------------------------------
 
-// What held a node back in a step: nothing (`count` 0), one collider (1, and its normal), or several (2): then the node
-// counts as held whichever way it goes.
+// The obstacles of a node in a step: none (`count` 0), one collider (1, and its normal), or several (2): then the node
+// counts as blocked in all directions.
 struct Blocked
 {
     vec3 normal;
@@ -36,8 +36,8 @@ LAW Blocked blocked_by_nothing()
     return blocked;
 }
 
-// With one more collider. `position` is the predicted one, as `contact_step` is given it. A node that rises out of a collider is
-// not held: its speed along the normal is a part of what the volume changes by.
+// Adds one more collider. `position` is the predicted one, as in `contact_step`. A node that rises out of a collider is not
+// blocked: its speed along the normal changes the volume.
 LAW Blocked blocked_with(Blocked blocked, Collider collider, vec3 position, real thickness, real inverse_mass)
 {
     vec4 contact = collider_gap(collider, position);
@@ -48,7 +48,7 @@ LAW Blocked blocked_with(Blocked blocked, Collider collider, vec3 position, real
     return blocked;
 }
 
-// The part of a that does not go along the normal: (I - n n^T) a
+// The part of a across the normal: (I - n n^T) a
 LAW vec3 free_part(vec3 a, Blocked blocked)
 {
     vec3 along_surface = a - blocked.normal * dot3(a, blocked.normal);
@@ -60,7 +60,7 @@ LAW vec3 free_part(vec3 a, Blocked blocked)
 // With G = 6 dV/dx, w the inverse mass, omega the weight of a node and P its free directions:
 struct VolumeRate
 {
-    real rate;      // sum G . P v, of the velocity that forces alone lead to, m3/s
+    real rate;      // sum G . P v, where v follows from forces alone, m3/s
     real mobility;  // sum G . P omega w G
     vec3 pushed;    // sum P omega w G
     vec3 thrust;    // sum omega G
@@ -104,15 +104,15 @@ LAW real inverse_of(real a)
     return r * r;
 }
 
-// The mean gradient by weight. Taken off, the weighted forces have no net thrust: sum omega (G - mean) = 0.
-// `inverse_weight` is 1 / sum omega over free nodes; 0 where all weights are 1, since then sum G = 0.
+// The weighted mean of the gradient. Subtracting it leaves weighted forces without net thrust: sum omega (G - mean) = 0.
+// `inverse_weight` is 1 / sum omega over free nodes; 0 if all weights are 1, since then sum G = 0.
 LAW vec3 volume_mean(VolumeRate sums, real inverse_weight)
 {
     return sums.thrust * inverse_weight;
 }
 
-// Eq. (14) with Phi_t = 0, as a change of velocity: v' = v - q omega w (G - mean) gives 6 V' = 6 V + dt sum G . P v' the
-// value that is wanted. `excess` is 6 (V - V_wanted) before the step; the multiplier itself is 6 q / dt.
+// Eq. (14) with Phi_t = 0, as a change of velocity: v' = v - q omega w (G - mean) makes 6 V' = 6 V + dt sum G . P v' the
+// target value. `excess` is 6 (V - V_wanted) before the step; the multiplier itself is 6 q / dt.
 LAW real volume_multiplier(VolumeRate sums, vec3 mean, real excess, real inverse_dt)
 {
     real mobility = sums.mobility - dot3(mean, sums.pushed);
@@ -120,13 +120,13 @@ LAW real volume_multiplier(VolumeRate sums, vec3 mean, real excess, real inverse
     return choose(mobility > 0.0f, q, real(0.0f));
 }
 
-// The force of the multiplier on a node, held or not: a node on a plate is pressed against it.
+// Applies the multiplier's force to a node, blocked or not: a node on a plate is pressed against it.
 LAW vec3 volume_velocity(vec3 velocity, vec3 gradient, vec3 mean, real inverse_mass, real weight, real q)
 {
     return settled_velocity(velocity - (gradient - mean) * (weight * inverse_mass) * q);
 }
 
-// How a node moves for a unit of q: omega w P (G - mean)
+// Displacement of a node per unit of q: omega w P (G - mean)
 LAW vec3 volume_direction(vec3 gradient, vec3 mean, real inverse_mass, real weight, Blocked blocked)
 {
     return free_part((gradient - mean) * (weight * inverse_mass), blocked);
@@ -137,10 +137,10 @@ LAW vec3 volume_direction(vec3 gradient, vec3 mean, real inverse_mass, real weig
 // 6 V(x - s d) - 6 V_wanted = (volume + low - wanted) - first s + second s^2 - third s^3
 struct VolumeCubic
 {
-    real volume;  // 6 V(x), m3; with `low`, what its sums have rounded off
+    real volume;  // 6 V(x), m3; `low` is the rounding error of its sum
     real low;
     real first, second, third;
-    vec3 arm;     // sum of the apexes about the centre, m: where the centre has moved
+    vec3 arm;     // sum of the apexes about the centre, m: the displacement of the centre
 };
 
 LAW VolumeCubic volume_cubic_of_nothing()
@@ -155,8 +155,8 @@ LAW VolumeCubic volume_cubic_of_nothing()
     return a;
 }
 
-// Volumes are added with their rounding errors (two-sum: Knuth, "The art of computer programming", volume 2, 4.2.2), so
-// that V - V_wanted is as exact as the triangles are.
+// Volumes are added with their rounding errors (two-sum: Knuth, "The art of computer programming", volume 2, 4.2.2), so that
+// V - V_wanted is as exact as the volumes of the triangles.
 LAW VolumeCubic volume_cubic_merge(VolumeCubic a, VolumeCubic b)
 {
     VolumeCubic m;
@@ -171,7 +171,7 @@ LAW VolumeCubic volume_cubic_merge(VolumeCubic a, VolumeCubic b)
     return m;
 }
 
-// A fan of triangles (a, b_k, b_k+1): sums of the cross products of their sides, and of how those change with d.
+// A fan of triangles (a, b_k, b_k+1): sums of the cross products of their sides, and of their changes along d.
 struct FanSums
 {
     vec3 area;    // sum e_k x e_k+1,  e = b - a
@@ -215,8 +215,8 @@ LAW real volume_excess(VolumeCubic a, real wanted, real s)
     return ((a.volume - wanted) + a.low) - s * (a.first - s * (a.second - s * a.third));
 }
 
-// The root nearest to 0 by six of Newton's steps; each doubles the digits, and the first is what eq. (14) would do. Where
-// the volume does not fall along d (all nodes held, or a body turned inside out) nothing is moved.
+// The root nearest to 0, by six Newton steps. Each doubles the number of digits; the first equals eq. (14). If the volume
+// does not fall along d (all nodes blocked, or a body turned inside out), nothing moves.
 LAW real volume_root(VolumeCubic a, real wanted)
 {
     real s = 0.0f;
@@ -228,8 +228,8 @@ LAW real volume_root(VolumeCubic a, real wanted)
     return s;
 }
 
-// A node moved by -s d at the end of a step, and its velocity with it: momentum is what it would be had the multiplier
-// been exact at once.
+// Moves a node by -s d at the end of a step and corrects its velocity: momentum is as if the multiplier had been exact at
+// once.
 LAW Motion volume_corrected(Motion end, vec3 d, real s, real inverse_dt)
 {
     end.position = end.position - d * s;

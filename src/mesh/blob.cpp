@@ -11,16 +11,16 @@
 namespace pliant {
 namespace {
 
-/// A ball that moves from one point to another while its radius changes.
+/// A ball swept from one point to another while its radius changes.
 struct Limb {
     Vec3d from;
     double from_radius;
     Vec3d to;
     double to_radius;
-    double blend;  ///< m, over which it flows into what was there before
+    double blend;  ///< m, distance of smooth blending with the limbs before
 };
 
-// The figure is about 1 m tall, with the feet at y = 0.
+// The figure is about 1 m tall, with its feet at y = 0.
 constexpr std::array limbs = {
     Limb{{0, 0.27, 0}, 0.190, {0, 0.50, 0}, 0.150, 0},                    // body
     Limb{{0, 0.76, 0.01}, 0.165, {0, 0.79, 0.01}, 0.160, 0.10},           // head

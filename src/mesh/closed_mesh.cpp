@@ -1,4 +1,4 @@
-// require_closed: what a body with volume asks of its surface.
+// require_closed: the requirements of a body with volume on its surface.
 #include <cmath>
 #include <string>
 
@@ -17,7 +17,7 @@ bool is_good(const MeshReport& report)
            report.inward_components == 0 && report.volume > flat_volume(report.area);
 }
 
-/// A round distance at which vertices of one edge stay apart, for seams that do not quite meet; 0: there is
+/// A round tolerance that welds almost matching seams but keeps the ends of every edge apart; 0: there is
 /// none.
 double weld_suggestion(const MeshReport& report)
 {
@@ -25,7 +25,7 @@ double weld_suggestion(const MeshReport& report)
     return most > 0 && most < 1e3 ? std::pow(10, std::floor(std::log10(most))) : 0;
 }
 
-/// The lightest repair that makes the mesh good, or that none does.
+/// The mildest repair that fixes the mesh, or a note that none does.
 std::string remedy(const SurfaceMesh& mesh, const MeshReport& report, const std::string& name)
 {
     const double tolerance = weld_suggestion(report);
@@ -34,11 +34,11 @@ std::string remedy(const SurfaceMesh& mesh, const MeshReport& report, const std:
         repair_mesh(mended, options);
         if (!is_good(inspect_mesh(mended))) continue;
         const std::string file = mesh.file.empty() ? name : mesh.file.string();
-        return "mend it by 'pliant check " + file + " --repair" +
+        return "repair it with 'pliant check " + file + " --repair" +
                (options.weld_tolerance > 0 ? " --weld " + number_text(tolerance) : "") +
                (options.fill_holes ? " --fill-holes" : "") + " --out FIXED.ply'";
     }
-    return "'pliant check --repair' does not mend this, so do it in a modeller";
+    return "'pliant check --repair' cannot fix this; repair it in a modelling program";
 }
 
 std::string at_vertex(const SurfaceMesh& mesh, std::uint32_t vertex)
@@ -46,7 +46,7 @@ std::string at_vertex(const SurfaceMesh& mesh, std::uint32_t vertex)
     return "vertex " + std::to_string(vertex) + " at " + rounded(to_double(mesh.vertices[vertex])) + " m";
 }
 
-/// What is wrong and where.
+/// What is wrong, and where.
 std::string fault(const SurfaceMesh& mesh, const MeshReport& report)
 {
     if (report.triangles == 0) return "it has no triangles";

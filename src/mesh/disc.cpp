@@ -8,7 +8,7 @@
 namespace pliant {
 SurfaceMesh make_disc(double radius, std::uint32_t rings)
 {
-    constexpr double jitter = 0.2;  // of the distance between rings; triangles turn over from about 0.4 on
+    constexpr double jitter = 0.2;  // of the distance between rings; triangles flip from about 0.4 on
     constexpr double turn = 2 * std::numbers::pi;
     const double spacing = radius / rings;
     SurfaceMesh mesh;
@@ -28,7 +28,7 @@ SurfaceMesh make_disc(double radius, std::uint32_t rings)
             mesh.vertices.push_back({static_cast<float>(x), 0, static_cast<float>(z)});
         }
 
-    // Each sixth of a ring joins `ring` edges of its own with `ring` - 1 of the ring inside.
+    // Each sixth of a ring connects `ring` edges of its own with `ring` - 1 of the ring inside.
     mesh.triangles.reserve(6ull * rings * rings);
     for (std::uint32_t ring = 1; ring <= rings; ++ring) {
         const auto outer = static_cast<std::uint32_t>(disc_node_count(ring - 1));

@@ -14,7 +14,7 @@
 namespace pliant {
 namespace {
 
-constexpr double jitter = 0.2;  // of a square's side; triangles turn over from about 0.4 on
+constexpr double jitter = 0.2;  // of a square's side; triangles flip from about 0.4 on
 
 double distance2(const SurfaceMesh& mesh, std::uint32_t a, std::uint32_t b)
 {
@@ -22,8 +22,8 @@ double distance2(const SurfaceMesh& mesh, std::uint32_t a, std::uint32_t b)
     return dot(d, d);
 }
 
-/// The corners of a square in order, counter-clockwise seen from the side that it faces; whether it is to be
-/// cut from a to c, or from b to d.
+/// The corners of a square, counter-clockwise seen from its front; and whether it is cut from a to c or from
+/// b to d.
 struct Square {
     std::uint32_t a, b, c, d;
     bool along_ac;
@@ -35,7 +35,7 @@ std::array<Triangle, 2> halves_of(const Square& s)
 }
 
 /// A T-shirt on a lattice of squares of side 1: i from the middle to the wearer's left, j from the shoulders
-/// down. The front's vertices come first, then those of the back that are not sewn to them.
+/// down. The front's vertices come first, then the back's, without those on seams.
 class Shirt {
 public:
     explicit Shirt(int n, double side) : n_(n), side_(side)
@@ -45,7 +45,7 @@ public:
     SurfaceMesh mesh;
 
 private:
-    bool inside(int i, int j) const  // both, or a square's corner with the least coordinates and 1 more
+    bool inside(int i, int j) const  // in both panels; for a square, (i, j) is its least corner
     {
         return j >= 0 && j <= 13 * n_ && std::abs(i) <= (j <= 4 * n_ ? 9 * n_ : 5 * n_);
     }
@@ -66,7 +66,7 @@ private:
         return is_seam(i, j) || neck || j == 13 * n_ || std::abs(i) == 9 * n_;
     }
 
-    /// From the nearest seam, in sides.
+    /// Distance to the nearest seam, in sides.
     double from_seam(double i, double j) const
     {
         const double n = n_, across = std::abs(i);
@@ -100,7 +100,8 @@ private:
             x += moved.x;
             y += moved.y;
         }
-        // Slope 1 at a seam, and level from two reaches on: no edge is longer than flat by more than sqrt 2.
+        // Slope 1 at a seam, level from a distance of 2 n on: an edge is at most sqrt 2 times as long as in
+        // the flat panel.
         const double reach = n_, from = std::min(from_seam(x, y), 2 * reach);
         const double depth = from - from * from / (4 * reach);
         (front ? front_ : back_)[{i, j}] = number;
@@ -121,7 +122,7 @@ private:
         const auto cut_away = [&](int di, int dj) { return front && sum(di, dj) < 2 * n_; };
         const auto corner = [&](int di, int dj) { return at(i + di, j + dj, front); };
         const std::array<std::pair<int, int>, 4> around{{{0, 1}, {1, 1}, {1, 0}, {0, 0}}};
-        // The neck is cut along diagonals: of a square there half is left, or nothing.
+        // The neck is cut along diagonals: of a square there, half remains, or nothing.
         std::vector<std::uint32_t> left;
         for (const auto& [di, dj] : around)
             if (!cut_away(di, dj)) left.push_back(corner(di, dj));

@@ -1,4 +1,4 @@
-// Checks of what the generators are asked for.
+// Checks of the generators' options.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace pliant {
 
-/// `name` is that of the option, as in "icosphere.radius". NaN is refused as well.
+/// `name`: of the option, such as "icosphere.radius". NaN is refused, too.
 inline void require_length(const char* name, double value)
 {
     constexpr double longest = 1e4;
@@ -26,7 +26,7 @@ inline void require_count(const char* name, std::uint64_t value, std::uint64_t l
                                           " and " + std::to_string(most));
 }
 
-/// Two options may each be in their range and the mesh still be too large for any use.
+/// Options may each be in range and the mesh still be too large.
 inline void require_vertex_count(const char* shape, std::uint64_t count)
 {
     constexpr std::uint64_t most = 1u << 24;

@@ -1,5 +1,5 @@
-// Generators of parametric shapes. Vertices are numbered so that each is made once: a ring closes by its
-// index, never by a second vertex at the same place.
+// Generators of parametric shapes. Each vertex is created once: a ring closes by its index, without a second
+// vertex at the same place.
 #include "pliant/mesh_generators.hpp"
 
 #include <array>
@@ -54,12 +54,12 @@ SurfaceMesh lathe(double top, const std::vector<Parallel>& circles, double botto
     return mesh;
 }
 
-/// The vertices on the surface of the lattice of (n + 1)^3 points, numbered as they are asked for.
+/// The vertices on the surface of a lattice of (n + 1)^3 points, numbered in the order of their first use.
 class BoxLattice {
 public:
     explicit BoxLattice(std::uint32_t n) : side_(n + 1), numbers_(6 * std::size_t{side_} * side_, none) {}
 
-    /// The number of the lattice point; calls `make` when it is a new one.
+    /// The number of a lattice point; calls `make` if it is new.
     template <class Make>
     std::uint32_t number(std::array<std::uint32_t, 3> point, Make make)
     {
@@ -74,7 +74,7 @@ public:
 private:
     static constexpr std::uint32_t none = 0xFFFF'FFFFu;
 
-    /// Of the sides that a point is on, the first is its home.
+    /// A point is numbered with the first of the sides that it is on.
     std::size_t place(std::array<std::uint32_t, 3> point) const
     {
         for (std::size_t axis = 0; axis < 3; ++axis)
@@ -188,8 +188,8 @@ SurfaceMesh box_mesh(const BoxOptions& options)
                             mesh.vertices.push_back(to_float({along(0), along(1), along(2)}));
                         });
                     };
-                    // The two axes of a side turn about its outer normal at the far end, the other way at the
-                    // near one.
+                    // The axes of a side turn counter-clockwise about its outer normal at the far end,
+                    // clockwise at the near end.
                     const std::uint32_t a = corner(0, 0), b = far ? corner(1, 0) : corner(0, 1),
                                         c = corner(1, 1), d = far ? corner(0, 1) : corner(1, 0);
                     if ((i + j) % 2 == 0)

@@ -1,6 +1,6 @@
 // The triangulation of least area follows Barequet and Sharir, Filling Gaps in the Boundary of a Polyhedron,
-// 1995; here with a small weight on long edges, which decides where areas are equal (a flat hole), and
-// without triangles that have no area or edges that the mesh has already.
+// 1995. Here long edges get a small additional weight, which decides between equal areas (a flat hole), and
+// triangles without area or with existing edges are excluded.
 #include "mesh/hole_filling.hpp"
 
 #include <cmath>
@@ -16,11 +16,11 @@ namespace {
 using Loop = std::vector<std::uint32_t>;
 
 constexpr std::size_t no_side = std::numeric_limits<std::size_t>::max();
-constexpr std::size_t longest_loop = 400;  // the time goes with its cube: 10 million triangles are weighed
+constexpr std::size_t longest_loop = 400;  // the time grows with its cube: 10 million triangles are tested
 
 std::size_t previous_corner(std::size_t corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
 
-/// The loops around the holes, in the direction that the triangles in them are to have.
+/// The loops around the holes, in the direction that their triangles need.
 class LoopFinder {
 public:
     LoopFinder(const SurfaceMesh& mesh, std::span<const EdgeUse> uses)
@@ -60,7 +60,7 @@ private:
 
     std::uint32_t vertex(std::size_t corner) const { return mesh_.triangles[corner / 3][corner % 3]; }
 
-    /// The boundary side that ends where the side begins, in the same fan; none when the way is blocked.
+    /// The next boundary side around the same fan, ending where this side begins; none if the fan is blocked.
     std::size_t next(std::size_t side) const
     {
         for (std::size_t steps = 0; steps < across_.size(); ++steps) {
@@ -72,7 +72,7 @@ private:
         return no_side;
     }
 
-    /// A loop that passes a vertex twice is two loops.
+    /// Splits a loop that passes a vertex twice into two loops.
     static void split(const Loop& loop, std::vector<Loop>& loops)
     {
         Loop open;
@@ -88,7 +88,7 @@ private:
     }
 
     const SurfaceMesh& mesh_;
-    std::vector<std::size_t> across_;  // for each side the one of the neighbour, or what is there instead
+    std::vector<std::size_t> across_;  // by side: the neighbour's side, or a marker
     std::vector<std::size_t> starts_;
 };
 
@@ -117,7 +117,7 @@ private:
         ++filling_.triangles;
     }
 
-    /// m^2, or infinity for a triangle that may not be.
+    /// m^2, or infinity for an excluded triangle
     double weight(const Triangle& t) const
     {
         if (is_flat(mesh_, t)) return std::numeric_limits<double>::infinity();
@@ -127,7 +127,8 @@ private:
         return std::sqrt(dot(normal, normal)) / 2 + of_edges * (dot(a, a) + dot(b, b) + dot(c, c));
     }
 
-    /// best[i][j]: the least weight of triangles between the vertices i to j of the loop and the edge j-i.
+    /// best[i][j]: the least weight of a triangulation between the vertices i to j of the loop and the edge
+    /// j-i.
     bool triangulate(const Loop& loop)
     {
         const std::size_t n = loop.size();
@@ -164,7 +165,7 @@ private:
         return true;
     }
 
-    /// About the middle of the rim.
+    /// A fan about the middle of the loop.
     void fan(const Loop& loop)
     {
         Vec3d sum;

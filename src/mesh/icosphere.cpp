@@ -1,5 +1,5 @@
-// The icosphere: points on the edges and faces of an icosahedron, pushed out to the sphere. A point is put
-// where the arcs to it are divided evenly, not the chords, which keeps the triangles nearly equal.
+// The icosphere: points on the edges and faces of an icosahedron, projected onto the sphere. Points divide
+// the arcs evenly, not the chords, which keeps the triangles nearly equal.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,14 +29,14 @@ constexpr std::array<Vec3d, 12> icosahedron = {{{0, 1, golden},
 
 Vec3d unit(Vec3d v) { return v * (1 / std::sqrt(dot(v, v))); }
 
-/// The point a fraction t of the arc from a to b, two unit vectors.
+/// The point at a fraction t of the arc from a to b, two unit vectors.
 Vec3d on_arc(Vec3d a, Vec3d b, double t)
 {
     const double angle = std::acos(std::clamp(dot(a, b), -1.0, 1.0));
     return unit(a * std::sin((1 - t) * angle) + b * std::sin(t * angle));
 }
 
-/// The 20 triples of corners at the distance of an edge, facing outward.
+/// The 20 triples of corners that are an edge's length apart, facing outward.
 std::vector<Triangle> icosahedron_faces()
 {
     constexpr double edge = 4;  // squared, of `icosahedron`
@@ -71,7 +71,8 @@ private:
         return static_cast<std::uint32_t>(mesh_.vertices.size() - 1);
     }
 
-    /// The vertex `step` parts of the edge from a to b; those of an edge are made when it is first met.
+    /// The vertex `step` parts along the edge from a to b; an edge's vertices are created when it first
+    /// occurs.
     std::uint32_t on_edge(std::uint32_t a, std::uint32_t b, std::uint32_t step)
     {
         if (step == 0) return a;
@@ -104,7 +105,7 @@ private:
         }
     }
 
-    /// The mean over the three ways to divide: along the arcs parallel to each side.
+    /// The mean of three ways to divide: along the arcs parallel to each side.
     Vec3d inner(const Triangle& face, std::uint32_t i, std::uint32_t j) const
     {
         const std::array<Vec3d, 3> corner = {unit(icosahedron[face[0]]), unit(icosahedron[face[1]]),
@@ -123,7 +124,8 @@ private:
     double radius_;
     std::uint32_t f_;
     SurfaceMesh mesh_;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> edges_;  // to the first vertex inside
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> edges_;  // the first inner vertex of
+                                                                              // each edge
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 // Surface nets (Gibson, Constrained Elastic Surface Nets, MICCAI 1998), the dual of marching cubes: one
-// vertex in each cell that the surface crosses, one quad for each lattice edge that it crosses. Then the
-// vertices are relaxed along the surface and the edges flipped to Delaunay.
+// vertex in each cell that the surface crosses, one quad for each lattice edge that it crosses. Then vertices
+// are relaxed along the surface, and edges flipped towards Delaunay.
 #include "mesh/implicit_surface.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace pliant {
 namespace {
 
 constexpr std::uint32_t no_cell = std::numeric_limits<std::uint32_t>::max();
-constexpr double steepest = 1.25;  // of a field
+constexpr double steepest = 1.25;  // maximum slope of a field
 
 class SurfaceNet {
 public:
@@ -26,7 +26,7 @@ public:
         const Vec3d size = bounds.max - bounds.min;
         const auto cells = [&](double length) { return static_cast<std::size_t>(length / h_) + 3; };
         nx_ = cells(size.x), ny_ = cells(size.y), nz_ = cells(size.z);
-        // In the middle, so that a symmetric field gives a symmetric lattice, at least a cell outside.
+        // Centred, so that a symmetric field has a symmetric lattice; at least one cell outside.
         const auto begin = [&](double low, double length, std::size_t n) {
             return low - (static_cast<double>(n) * h_ - length) / 2;
         };
@@ -34,7 +34,7 @@ public:
                    begin(bounds.min.z, size.z, nz_)};
     }
 
-    /// Layer by layer, so that memory grows with the surface and not with the space.
+    /// Layer by layer, so that memory grows with the surface instead of the volume.
     SurfaceMesh build()
     {
         std::vector<double> low = corner_layer(0), high;
@@ -62,8 +62,7 @@ private:
         for (std::size_t y = 0; y <= ny_; ++y)
             for (std::size_t x = 0; x <= nx_;) {
                 const double value = field_(place(double(x), double(y), double(z))).value;
-                // As long as neither a corner nor a neighbour of it can have the other sign, its value is of
-                // no interest.
+                // Values are not needed while neither a corner nor its neighbours can have the other sign.
                 const double steps = std::abs(value) / (steepest * h_) - 1;
                 const std::size_t end =
                     std::min(nx_ + 1, x + std::max<std::size_t>(1, std::size_t(std::max(0.0, steps))));
@@ -72,8 +71,8 @@ private:
         return values;
     }
 
-    /// A vertex for each cell with corners inside and outside: the mean of the points where its edges cross
-    /// the surface.
+    /// A vertex for each cell that the surface crosses: the mean of the points where its edges cross the
+    /// surface.
     std::vector<std::uint32_t> cell_layer(const std::vector<double>& low, const std::vector<double>& high,
                                           std::size_t z)
     {
@@ -102,7 +101,7 @@ private:
         return cells;
     }
 
-    /// The quads of the three lattice edges that go from corner (x, y) of the lower layer to +x, +y, +z.
+    /// The quads of the three lattice edges from corner (x, y) of the lower layer to +x, +y, +z.
     void add_quads(const std::vector<double>& low, const std::vector<double>& high,
                    const std::vector<std::uint32_t>& below, const std::vector<std::uint32_t>& here,
                    std::size_t x, std::size_t y)
@@ -144,9 +143,9 @@ SurfaceMesh implicit_surface_mesh(const char* name, Field field, const Bounds& b
     SurfaceMesh mesh = SurfaceNet(field, bounds, spacing).build();
     for (int round = 0; round < 12; ++round) {
         const double ratio = static_cast<double>(mesh.vertices.size()) / vertex_count;
-        // The number of a coarse lattice jumps with its spacing: the longer it takes, the less is asked.
+        // On a coarse lattice the count jumps with the spacing: the tolerance grows with each round.
         const bool near = std::abs(ratio - 1) < std::min(0.05, 0.01 * (round + 1));
-        // A lattice may cut a thin part so that the net is no manifold: then one of another spacing.
+        // A lattice may cut a thin part so that the net is not a manifold: then another spacing is tried.
         if (near && is_one_ball(mesh)) {
             relax_triangles(mesh, field, spacing);
             return mesh;

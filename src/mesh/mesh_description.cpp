@@ -1,4 +1,4 @@
-// describe: reports on meshes as lines for a person.
+// describe: reports on meshes as text.
 #include "mesh/mesh_description.hpp"
 
 #include <algorithm>
@@ -51,7 +51,7 @@ std::string surface_of(const MeshReport& report)
            " m, mean " + rounded(report.edge_mean) + " m\n";
 }
 
-/// The longest first: those matter.
+/// The longest first.
 std::string loops_of(const MeshReport& report)
 {
     constexpr std::size_t most = 8;

@@ -1,4 +1,4 @@
-// Words for numbers, as the reports on meshes use them; private to src/mesh.
+// Number formatting for reports on meshes; private to src/mesh.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace pliant {
 
-/// Six digits, as a person reads them.
+/// Six significant digits.
 std::string rounded(double value);
 std::string rounded(Vec3d v);
 

@@ -1,4 +1,4 @@
-// inspect_mesh. The mesh is judged as stored: nothing is welded, dropped or turned round.
+// inspect_mesh. The mesh is judged as stored: nothing is welded, dropped or turned.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace pliant {
 
 namespace {
 
-/// Edges by the number of their triangles, their direction and length.
+/// Classifies edges by the number of their triangles; checks directions and lengths.
 void inspect_edges(const SurfaceMesh& mesh, std::span<const EdgeUse> uses, MeshReport& report)
 {
     report.oriented = !mesh.triangles.empty();
@@ -55,7 +55,7 @@ void inspect_fans(const SurfaceMesh& mesh, std::span<const EdgeUse> uses, MeshRe
     std::vector<bool> one_fan(mesh.vertices.size()), more_fans(mesh.vertices.size());
     for (std::size_t corner = 0; corner < corner_count; ++corner) {
         const std::uint32_t vertex = mesh.triangles[corner / 3][corner % 3];
-        // The two corners that (a, a, b) has at a are one.
+        // (a, a, b) has two corners at a, which count as one.
         if (!fans.is_root(corner) || corner != corner_at(corner / 3, vertex)) continue;
         if (one_fan[vertex]) more_fans[vertex] = true;
         one_fan[vertex] = true;
@@ -93,7 +93,7 @@ void inspect_duplicates(const SurfaceMesh& mesh, MeshReport& report)
         if (sorted[i] == sorted[i - 1]) ++report.duplicate_triangles;
 }
 
-/// Bounds, area, volume and triangles without area.
+/// Bounds, area, volume and degenerate triangles.
 void measure(const SurfaceMesh& mesh, MeshReport& report)
 {
     if (mesh.vertices.empty()) return;

@@ -9,7 +9,7 @@
 namespace pliant {
 namespace {
 
-/// A component as it is once its triangles agree.
+/// A component after its triangles agree.
 struct Part {
     std::vector<std::size_t> triangles;
     bool closed = true, orientable = true;
@@ -55,8 +55,8 @@ public:
     }
 
 private:
-    /// Neighbour triangles across each edge with two of them, then a flood fill from the first triangle of
-    /// each part. Here, parts hang together by such edges: what only shares a vertex has no side to agree on.
+    /// Neighbour triangles across each edge with two triangles, then a flood fill from the first triangle of
+    /// each part. Parts are connected by such edges: triangles that share only a vertex need not agree.
     void make_parts()
     {
         constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
@@ -118,7 +118,7 @@ private:
         }
     }
 
-    /// Whether the part lies in an odd number of closed parts.
+    /// Whether the part is inside an odd number of closed parts.
     bool is_cavity(std::size_t i) const
     {
         const Part& part = parts_[i];
@@ -128,7 +128,7 @@ private:
         return around % 2 == 1;
     }
 
-    /// By the bounds, then by three vertices of the inner part: parts that overlap are not in each other.
+    /// Tests the bounds, then three vertices of the inner part: overlapping parts do not contain each other.
     bool contains(const Part& outer, const Part& inner) const
     {
         const bool bounds_inside = least(outer.low, inner.low) == outer.low &&
@@ -142,7 +142,7 @@ private:
         return true;
     }
 
-    /// How often the part goes around the point: the sum of solid angles over 4 pi (van Oosterom and
+    /// The winding number of the part about the point: the sum of solid angles over 4 pi (van Oosterom and
     /// Strackee, The Solid Angle of a Plane Triangle, 1983).
     double winding_number(const Part& part, Vec3d point) const
     {

@@ -1,4 +1,4 @@
-// Which way the triangles of a mesh face, and which way they should.
+// The orientation of a mesh's triangles: present and consistent.
 #pragma once
 
 #include <span>
@@ -7,19 +7,19 @@
 
 namespace pliant {
 
-/// How to turn the triangles of a mesh so that they agree.
+/// Which triangles of a mesh to turn so that all agree.
 struct OrientationPlan {
-    std::vector<bool> turn;   ///< for each triangle: neighbours agree, and each component faces as it should
-    bool orientable = false;  ///< false when some edge with two triangles disagrees whatever is turned
-    std::size_t inward_components = 0;  ///< components that agree in themselves but face the wrong way
+    std::vector<bool> turn;   ///< by triangle: afterwards neighbours agree, and components face the right way
+    bool orientable = false;  ///< false if some edge with two triangles disagrees for any choice
+    std::size_t inward_components = 0;  ///< components that are consistent but face the wrong way
 };
 
-/// Neighbours are made to agree across edges with two triangles. Then each closed component is made to face
-/// outward, or inward when it lies in an odd number of others (a cavity). A component that is open or has no
-/// volume keeps the side that most of its triangles have.
+/// Neighbours agree across edges with two triangles. Each closed component faces outward, or inward if it is
+/// inside an odd number of others (a cavity). A component that is open or has no volume keeps the orientation
+/// of most of its triangles.
 OrientationPlan plan_orientation(const SurfaceMesh& mesh, std::span<const EdgeUse> uses);
 
-/// Turns the triangles of the plan round, and returns their number.
+/// Turns the triangles of the plan, and returns their number.
 std::size_t turn_triangles(SurfaceMesh& mesh, const std::vector<bool>& turn);
 
 }  // namespace pliant

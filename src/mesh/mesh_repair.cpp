@@ -1,4 +1,4 @@
-// repair_mesh: the order of its steps, and triangles that must go.
+// repair_mesh: the order of its steps, and the removal of triangles.
 #include <set>
 #include <string>
 #include <utility>
@@ -36,7 +36,7 @@ void drop_duplicates(SurfaceMesh& mesh, RepairReport& report)
         std::erase_if(mesh.triangles, [&](const Triangle&) { return bool(again[at++]); });
 }
 
-/// Which side of a triangle is the longest.
+/// The index of a triangle's longest side.
 std::size_t longest_side(const SurfaceMesh& mesh, const Triangle& t)
 {
     const auto squared = [&](std::size_t side) {
@@ -49,9 +49,9 @@ std::size_t longest_side(const SurfaceMesh& mesh, const Triangle& t)
     return best;
 }
 
-/// A triangle without area whose vertices differ has one vertex on its longest edge. Dropping it would open
-/// the surface there; turning that edge ends it instead. On the boundary it is dropped. One pass; returns
-/// whether something was done.
+/// A degenerate triangle with three different vertices has one vertex on its longest edge. Dropping it would
+/// open the surface there; flipping that edge removes it instead. At the boundary it is dropped. One pass;
+/// returns whether anything changed.
 bool end_flat_triangles(SurfaceMesh& mesh, RepairReport& report)
 {
     const std::vector<EdgeUse> uses = edge_uses(mesh);
@@ -63,7 +63,8 @@ bool end_flat_triangles(SurfaceMesh& mesh, RepairReport& report)
         return found != uses.end() && found->same_edge(key);
     };
     std::vector<bool> changed(mesh.triangles.size()), drop(mesh.triangles.size());
-    std::set<std::pair<std::uint32_t, std::uint32_t>> made;  // edges of this pass, which `uses` does not know
+    std::set<std::pair<std::uint32_t, std::uint32_t>> made;  // new edges of this pass, which are not in
+                                                             // `uses`
     const auto drops_before = report.dropped_triangles, flips_before = report.flipped_edges;
     for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
         if (edge.size() > 2) return;
@@ -81,7 +82,8 @@ bool end_flat_triangles(SurfaceMesh& mesh, RepairReport& report)
             const std::size_t other = opposite.triangle();
             if (changed[other] || edge[0].goes_up(mesh) == edge[1].goes_up(mesh)) continue;
             const auto vertex = [&](const EdgeUse& use, std::size_t step) {
-                return mesh.triangles[use.triangle()][(use.corner + step) % 3];  // 3 * triangle drops out
+                return mesh.triangles[use.triangle()][(use.corner + step) % 3];  // 3 * triangle vanishes
+                                                                                 // modulo 3
             };
             const std::uint32_t a = vertex(edge[k], 0), b = vertex(edge[k], 1), tip = vertex(edge[k], 2),
                                 far_tip = vertex(opposite, 2);
@@ -102,7 +104,7 @@ bool end_flat_triangles(SurfaceMesh& mesh, RepairReport& report)
 
 bool is_closed(const SurfaceMesh& mesh) { return inspect_mesh(mesh).closed; }
 
-/// Welds and drops, unless that would open a closed mesh: then nothing.
+/// Welds and drops; does nothing if that would open a closed mesh.
 void clean(SurfaceMesh& mesh, double weld_tolerance, RepairReport& report)
 {
     SurfaceMesh cleaned = mesh;
@@ -110,7 +112,7 @@ void clean(SurfaceMesh& mesh, double weld_tolerance, RepairReport& report)
     done.welded_vertices = weld_vertices(cleaned, weld_tolerance);
     drop_repeated_vertices(cleaned, done);
     drop_duplicates(cleaned, done);
-    constexpr int most_passes = 10;  // each ends the flat triangles that do not touch another one
+    constexpr int most_passes = 10;  // each removes the flat triangles that touch no other
     for (int pass = 0; pass < most_passes && end_flat_triangles(cleaned, done); ++pass) {
     }
     if (describe(done).empty() || cleaned.triangles.empty() || (is_closed(mesh) && !is_closed(cleaned)))
@@ -140,7 +142,7 @@ RepairReport repair_mesh(SurfaceMesh& mesh, const RepairOptions& options)
         report.filled_holes = filling.holes;
         report.added_triangles = filling.triangles;
         report.added_vertices = filling.vertices;
-        // What was open could not be said to face outward.
+        // While it was open, its outside was undefined.
         if (filling.holes > 0) turn_triangles(mesh, plan_orientation(mesh, edge_uses(mesh)).turn);
     }
     for (std::size_t t = 0; t < before.size(); ++t) report.turned_triangles += mesh.triangles[t] != before[t];

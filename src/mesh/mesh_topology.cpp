@@ -45,7 +45,7 @@ std::vector<BoundaryLoop> boundary_loops(const SurfaceMesh& mesh, std::span<cons
         boundary.push_back(edge[0]);
     });
     std::vector<BoundaryLoop> loops;
-    // Edges come sorted by their lower vertex, and a chain's root is its lowest.
+    // Edges are sorted by their lower vertex, and a chain's root is its lowest.
     for (const EdgeUse& edge : boundary) {
         const auto first = static_cast<std::uint32_t>(chains.root(edge.low));
         if (edge.low == first && (loops.empty() || loops.back().vertex != first))

@@ -1,4 +1,4 @@
-// Edges and components of a triangle mesh; what inspection and repair share.
+// Edges and components of a triangle mesh, for inspection and repair.
 #pragma once
 
 #include <algorithm>
@@ -40,20 +40,20 @@ private:
     std::vector<std::size_t> parents_;
 };
 
-/// One side of a triangle, from the triangle's corner `side` to the next one.
+/// One side of a triangle, from corner `side` of the triangle to the next one.
 struct EdgeUse {
     std::uint32_t low, high;  // the two vertices
     std::size_t corner;       // 3 * triangle + side
 
     bool same_edge(const EdgeUse& other) const { return low == other.low && high == other.high; }
     std::size_t triangle() const { return corner / 3; }
-    /// Whether its triangle goes along it from low to high.
+    /// Whether its triangle traverses it from low to high.
     bool goes_up(const SurfaceMesh& mesh) const { return mesh.triangles[corner / 3][corner % 3] == low; }
 };
 
 inline bool has_repeated_vertex(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
-/// All sides, those of one edge together. A triangle (a, a, b) uses the edge a-b once.
+/// All sides, grouped by edge. A triangle (a, a, b) uses the edge a-b once.
 std::vector<EdgeUse> edge_uses(const SurfaceMesh& mesh);
 
 /// Calls `visit` with the uses of each edge.
@@ -68,18 +68,18 @@ void for_each_edge(std::span<const EdgeUse> uses, Visit visit)
 
 double edge_length(const SurfaceMesh& mesh, const EdgeUse& edge);  ///< m
 
-/// Chains of boundary edges, by their first vertex.
+/// Chains of boundary edges, ordered by their first vertex.
 std::vector<BoundaryLoop> boundary_loops(const SurfaceMesh& mesh, std::span<const EdgeUse> uses);
 
-/// The component of each triangle, from 0 in the order of their first triangle. Triangles are in one
-/// component when they share a vertex.
+/// The component of each triangle, numbered in the order of their first triangles. Triangles that share a
+/// vertex are in one component.
 struct Components {
     std::vector<std::uint32_t> of_triangle;
     std::size_t count = 0;
 };
 Components components_of(const SurfaceMesh& mesh);
 
-/// Whether the triangle is no higher than the rounding of its float coordinates.
+/// Whether the triangle's height is within the rounding of its float coordinates.
 bool is_flat(const SurfaceMesh& mesh, const Triangle& triangle);
 
 /// Six times the signed volume between the triangle and the origin, m^3.
@@ -89,8 +89,8 @@ inline double volume6(const SurfaceMesh& mesh, const Triangle& t, Vec3d origin)
                cross(to_double(mesh.vertices[t[1]]) - origin, to_double(mesh.vertices[t[2]]) - origin));
 }
 
-/// m^3; a closed surface of this area (m^2) that encloses less is called flat. A ball has 0.09 area^1.5, a
-/// square plate as thick as 3e-6 of its width this much.
+/// m^3; a closed surface of this area (m^2) with less volume counts as flat. A ball has 0.09 area^1.5; a
+/// square plate has this volume if its thickness is 3e-6 of its width.
 inline double flat_volume(double area) { return 1e-6 * area * std::sqrt(area); }
 
 }  // namespace pliant

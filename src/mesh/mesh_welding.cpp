@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t no_vertex = std::numeric_limits<std::uint32_t>::max();
 
-/// A cube of a grid, by whole numbers that may be larger than any integer type.
+/// A cell of a grid. Its coordinates are whole numbers that may exceed any integer type.
 struct Cell {
     double x, y, z;
     friend bool operator==(const Cell&, const Cell&) = default;
@@ -30,7 +30,7 @@ struct CellHash {
     }
 };
 
-/// The vertices that stay, found by their place.
+/// The remaining vertices, found by position.
 class Kept {
 public:
     Kept(const std::vector<Vec3>& vertices, double tolerance)
@@ -42,7 +42,7 @@ public:
         firsts_.reserve(vertices.size());
     }
 
-    /// The first that was kept within the tolerance of vertex i; none when there is no such.
+    /// The first remaining vertex within the tolerance of vertex i; none if there is none.
     std::uint32_t near(std::uint32_t i) const
     {
         const Cell cell = cell_of(i);
@@ -68,10 +68,10 @@ public:
     }
 
 private:
-    /// Not below what makes cells of neighbours differ in a double.
+    /// At least large enough that neighbouring cells differ in double precision.
     static double cell_size(const std::vector<Vec3>& vertices, double tolerance)
     {
-        if (tolerance == 0) return 0;  // each position is a cell of its own
+        if (tolerance == 0) return 0;  // each position is its own cell
         double furthest = 0;
         for (const Vec3 v : vertices)
             for (const float value : {v.x, v.y, v.z}) furthest = std::max(furthest, std::abs(double(value)));
@@ -93,11 +93,11 @@ private:
 
     const std::vector<Vec3>& vertices_;
     double tolerance_, size_;
-    std::unordered_map<Cell, std::uint32_t, CellHash> firsts_;  // of the list of each cell
+    std::unordered_map<Cell, std::uint32_t, CellHash> firsts_;  // the first vertex in each cell's list
     std::vector<std::uint32_t> next_;
 };
 
-/// Removes the vertices that map to none, and gives the triangles the new numbers of the others.
+/// Removes unused vertices, and renumbers the others in the triangles.
 void renumber(SurfaceMesh& mesh, std::vector<std::uint32_t>& stands_for)
 {
     std::vector<std::uint32_t> numbers(mesh.vertices.size(), no_vertex);

@@ -1,4 +1,4 @@
-// Vertices at one place made one.
+// Merges coincident vertices.
 #pragma once
 
 #include <cstddef>
@@ -8,11 +8,11 @@
 
 namespace pliant {
 
-/// Vertices within the tolerance (m; 0: exactly the same position) of an earlier one that stays become that
-/// one. Returns how many are gone; triangles may now have a vertex twice.
+/// Merges each vertex with an earlier remaining one within the tolerance (m; 0: exactly the same position).
+/// Returns the number of removed vertices; triangles may then have a vertex twice.
 PLIANT_INSIDE std::size_t weld_vertices(SurfaceMesh& mesh, double tolerance);
 
-/// Drops the vertices that no triangle uses, and returns their number.
+/// Drops vertices without triangles, and returns their number.
 std::size_t drop_isolated_vertices(SurfaceMesh& mesh);
 
 }  // namespace pliant

@@ -1,4 +1,4 @@
-// Numbers without order, the same on every machine, for meshes that are to be irregular.
+// Pseudo-random numbers, the same on every machine, for irregular meshes.
 #pragma once
 
 #include <cmath>
@@ -7,7 +7,7 @@
 
 namespace pliant {
 
-/// Between 0 and 1, from an index alone; the finaliser of MurmurHash3 (Appleby), which spreads neighbouring
+/// Between 0 and 1, from the index alone: the finaliser of MurmurHash3 (Appleby), which spreads neighbouring
 /// indices over all bits.
 inline double scattered(std::uint32_t index)
 {
@@ -17,7 +17,7 @@ inline double scattered(std::uint32_t index)
     return static_cast<double>(h ^ (h >> 16)) / 4'294'967'296.0;
 }
 
-/// Two numbers within a circle of radius `most`, evenly spread over it.
+/// Two numbers, uniformly distributed in a disc of radius `most`.
 struct Scatter {
     double x, y;
 };

@@ -21,10 +21,10 @@ Vec3d projected(Vec3d point, Field field, double furthest)
     return point - sample.gradient * step;
 }
 
-/// Each vertex goes towards the centre of area of its triangles, which evens out their areas.
+/// Moves each vertex towards the area centroid of its triangles, which equalises their areas.
 void smooth(std::vector<Vec3d>& points, const std::vector<Triangle>& triangles, Field field, double spacing)
 {
-    constexpr double towards = 0.8;  // further overshoots where neighbours do the same
+    constexpr double towards = 0.8;  // more would overshoot, since neighbours move, too
     std::vector<Vec3d> sums(points.size());
     std::vector<double> areas(points.size());
     for (const Triangle& t : triangles) {
@@ -64,8 +64,8 @@ double cotangent(Vec3d tip, Vec3d a, Vec3d b)
     return dot(u, v) / std::sqrt(std::max(dot(across, across), 1e-300));
 }
 
-/// One pass over the edges: one whose opposite angles are more than two right ones is turned to join the tips
-/// (Bern and Plassmann: the flip to Delaunay). Returns the number of flips.
+/// One pass over the edges: flips each edge whose opposite angles sum to more than 180 degrees (Bern and
+/// Plassmann: the flip to Delaunay). Returns the number of flips.
 std::size_t flip_edges(std::vector<Triangle>& triangles, const std::vector<Vec3d>& points)
 {
     std::vector<SharedEdge> sides;
@@ -87,7 +87,7 @@ std::size_t flip_edges(std::vector<Triangle>& triangles, const std::vector<Vec3d
     std::size_t flips = 0;
     std::vector<bool> changed(triangles.size());
     std::set<std::pair<std::uint32_t, std::uint32_t>> made;
-    for (std::size_t e = 0; e + 1 < sides.size(); e += 2) {  // two sides an edge: the mesh is closed
+    for (std::size_t e = 0; e + 1 < sides.size(); e += 2) {  // two sides per edge, since the mesh is closed
         const std::size_t first = sides[e].corner / 3, second = sides[e + 1].corner / 3;
         if (changed[first] || changed[second]) continue;
         const std::size_t k = sides[e].corner % 3;

@@ -1,6 +1,6 @@
-// STL, OFF and glTF, read by assimp; the only file that knows it. Assimp believes what a file claims, so the
-// counts of STL and OFF are held against the file before; of a binary glTF file only the lengths in its frame
-// are, of a .gltf nothing. What came out is checked after.
+// Reads STL, OFF and glTF with assimp; the only file that uses it. Assimp trusts the counts in a file, so
+// those of STL and OFF are checked first. Of a binary glTF file only the chunk lengths are checked, of a
+// .gltf nothing. The resulting mesh is checked afterwards.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,7 +24,7 @@
 namespace pliant {
 namespace {
 
-/// The number of triangles that the file is known to hold before assimp reads it.
+/// The number of triangles in the file, if it is known before assimp reads it.
 using Expected = std::optional<std::uint64_t>;
 
 std::uint32_t little_endian_at(std::string_view bytes, std::size_t position)
@@ -34,8 +34,8 @@ std::uint32_t little_endian_at(std::string_view bytes, std::size_t position)
     return value;
 }
 
-/// "solid ... facet ... endsolid": the first word after the name must be a keyword, since binary headers may
-/// begin with "solid" as well.
+/// "solid ... facet ... endsolid": the first word after the name must be a keyword, since headers of binary
+/// files may also begin with "solid".
 bool is_text_stl(std::string_view bytes)
 {
     bytes.remove_prefix(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size()));
@@ -49,7 +49,7 @@ bool is_text_stl(std::string_view bytes)
     return false;
 }
 
-/// Every line must be one of the format, and every facet complete: three vertices of three finite numbers.
+/// Every line must follow the format, and every facet be complete: three vertices of three finite numbers.
 Expected triangles_of_text_stl(const MeshSource& source)
 {
     LineScanner lines(source.bytes);
@@ -122,7 +122,7 @@ public:
             words_ = WordScanner(lines_.line().substr(0, lines_.line().find('#')));
         }
     }
-    /// Drops the rest of the line, and begins with the next one that has words.
+    /// Skips the rest of the line, up to the next line with words.
     void next_line() { words_ = WordScanner(""); }
     std::size_t line() const { return lines_.number(); }
 
@@ -131,7 +131,7 @@ private:
     WordScanner words_;
 };
 
-/// "OFF", three counts, vertices, faces; faces may have colours behind their corners.
+/// "OFF", three counts, vertices, faces; faces may have colours after their corners.
 Expected triangles_of_off(const MeshSource& source)
 {
     OffWords words(source);
@@ -143,7 +143,7 @@ Expected triangles_of_off(const MeshSource& source)
     for (std::uint64_t& count : counts) {
         const std::string_view word = words.next();
         const auto value = count_from(word);
-        if (!value) fail(in_quotes(word) + " stands where a count of vertices, faces or edges must");
+        if (!value) fail(in_quotes(word) + " is not a count of vertices, faces or edges");
         count = *value;
     }
     const auto [vertices, faces, edges] = counts;
@@ -178,8 +178,8 @@ Expected triangles_of_off(const MeshSource& source)
     return triangles;
 }
 
-/// The lengths in the frame of a binary glTF file (glTF 2.0 specification, section 4.4): assimp would set
-/// aside memory for any.
+/// The chunk lengths of a binary glTF file (glTF 2.0 specification, section 4.4): assimp would allocate
+/// memory for any length.
 void check_frame_of_glb(const MeshSource& source)
 {
     const std::string_view bytes = source.bytes;
@@ -208,7 +208,7 @@ void check_frame_of_glb(const MeshSource& source)
     }
 }
 
-/// The places of all meshes in the tree of a scene, each with its transformation.
+/// All instances of meshes in a scene's tree, each with its transformation.
 void add_nodes(const MeshSource& source, const aiScene& scene, SurfaceMesh& result)
 {
     struct Visit {
@@ -234,7 +234,7 @@ void add_nodes(const MeshSource& source, const aiScene& scene, SurfaceMesh& resu
             }
             for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
                 const aiFace& face = mesh.mFaces[i];
-                if (face.mNumIndices != 3) continue;  // points and lines
+                if (face.mNumIndices != 3) continue;  // skips points and lines
                 Triangle triangle;
                 for (unsigned k = 0; k < 3; ++k) {
                     if (face.mIndices[k] >= mesh.mNumVertices)
@@ -250,7 +250,7 @@ void add_nodes(const MeshSource& source, const aiScene& scene, SurfaceMesh& resu
     }
 }
 
-/// What assimp says, as the end of a sentence.
+/// Assimp's error message, as the end of a sentence.
 std::string reason_of(const std::string& text)
 {
     std::string reason = text.substr(0, text.find('\n'));
@@ -289,7 +289,7 @@ SurfaceMesh read_by_assimp(const MeshSource& source, Expected expected)
 SurfaceMesh read_stl(const MeshSource& source)
 {
     SurfaceMesh mesh = read_by_assimp(source, triangles_of_stl(source));
-    weld_vertices(mesh, 0);  // each triangle of an STL file has vertices of its own
+    weld_vertices(mesh, 0);  // each triangle of an STL file has its own vertices
     return mesh;
 }
 
@@ -300,7 +300,7 @@ SurfaceMesh read_gltf(const MeshSource& source)
     if (source.bytes.starts_with("glTF") || lower_case_ending(source.name) == ".glb")
         check_frame_of_glb(source);
     SurfaceMesh mesh = read_by_assimp(source, {});
-    weld_vertices(mesh, 0);  // vertices are stored again where normals or textures have a seam
+    weld_vertices(mesh, 0);  // vertices are repeated at seams of normals or textures
     return mesh;
 }
 

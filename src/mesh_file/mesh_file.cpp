@@ -1,4 +1,4 @@
-// read_mesh and write_mesh: the ending of the name decides on the format.
+// read_mesh and write_mesh: the file's extension chooses the format.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,7 +19,7 @@ namespace {
 struct MeshFormat {
     std::string_view ending;
     SurfaceMesh (*read)(const MeshSource&);
-    void (*write)(std::ostream&, const SurfaceMesh&);  ///< null: it is only read
+    void (*write)(std::ostream&, const SurfaceMesh&);  ///< null: the format is only read
 };
 constexpr std::array formats = {MeshFormat{".ply", read_ply, write_ply},
                                 MeshFormat{".obj", read_obj, write_obj},
@@ -37,7 +37,7 @@ constexpr std::array formats = {MeshFormat{".ply", read_ply, write_ply},
                 "cannot " + std::string(action) + " '" + file.string() + "': " + reason);
 }
 
-/// ".ply, .obj or .stl", those that are written or all.
+/// ".ply, .obj or .stl": all formats, or those that can be written.
 std::string endings(bool written)
 {
     std::vector<std::string> names;
@@ -55,8 +55,8 @@ const MeshFormat& format_of(const std::filesystem::path& file, bool written)
         if (format.ending == found && (!written || format.write)) return format;
     const std::string ending = file.extension().string();
     fail(written ? "write" : "read", file,
-         (ending.empty() ? "it has no ending" : "its ending is " + in_quotes(ending)) + ", but meshes " +
-             (written ? "are written as " : "end in ") + endings(written));
+         (ending.empty() ? "it has no extension" : "its extension is " + in_quotes(ending)) +
+             ", but meshes " + (written ? "are written as " : "end in ") + endings(written));
 }
 
 std::string file_contents(const std::filesystem::path& file)
@@ -66,14 +66,14 @@ std::string file_contents(const std::filesystem::path& file)
     if (!std::filesystem::exists(status)) fail("read", file, "there is no such file; check the path");
     if (std::filesystem::is_directory(status))
         fail("read", file, "it is a folder; give the name of a mesh file");
-    // A pipe could block for ever, a device never end.
+    // A pipe could block for ever, and a device never end.
     if (!std::filesystem::is_regular_file(status))
-        fail("read", file, "it is no plain file; save the mesh to one");
+        fail("read", file, "it is not a regular file; save the mesh to one");
 
     std::ifstream stream(file, std::ios::binary);
     if (!stream) fail("read", file, "it cannot be opened; check the permissions");
     const auto size = std::filesystem::file_size(file, error);
-    if (error) fail("read", file, "its size cannot be told (" + error.message() + ")");
+    if (error) fail("read", file, "its size cannot be determined (" + error.message() + ")");
     if (size == 0) fail("read", file, "it is empty (0 bytes); export the mesh again");
 
     std::string contents(size, '\0');

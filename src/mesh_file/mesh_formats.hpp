@@ -1,4 +1,4 @@
-// What the mesh readers and writers share; private to src/mesh_file.
+// Shared by the mesh readers and writers; private to src/mesh.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace pliant {
 
-/// A file in memory, with the name that messages call it.
+/// A file in memory, with its name for messages.
 struct MeshSource {
     std::string name;
     std::string_view bytes;

@@ -1,4 +1,4 @@
-// Writers: PLY (binary little-endian) and OBJ. Both keep every float exactly.
+// Writers: PLY (binary little-endian) and OBJ. Both preserve every float exactly.
 #include <bit>
 
 #include "files/formatted.hpp"

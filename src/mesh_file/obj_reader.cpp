@@ -1,5 +1,5 @@
-// OBJ reader: Wavefront, Advanced Visualizer manual, appendix B1. Takes the positions of 'v' and the corners
-// of 'f'; the other statements of the format are stepped over, anything else is an error.
+// OBJ reader: Wavefront, Advanced Visualizer manual, appendix B1. Reads the positions of 'v' and the corners
+// of 'f'; skips the other statements of the format, and rejects anything else.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -50,7 +50,7 @@ private:
         return text;
     }
 
-    /// A line without its comment, joined with the next one while it ends in a backslash.
+    /// A line without its comment, joined with the next one if it ends in a backslash.
     bool next_statement()
     {
         if (!lines_.next()) return false;
@@ -69,7 +69,7 @@ private:
 
     static std::string_view without_comment(std::string_view line) { return line.substr(0, line.find('#')); }
 
-    /// v x y z [w] or v x y z r g b [a]; only the position is kept.
+    /// v x y z [w] or v x y z r g b [a]; only the position is used.
     void vertex(WordScanner& words)
     {
         constexpr std::size_t most = 8;
@@ -101,8 +101,8 @@ private:
         face_lines_.push_back(statement_line_);
     }
 
-    /// The vertex, from 0, of v, v/vt, v//vn or v/vt/vn. The upper end is checked later:
-    /// faces may stand first.
+    /// The index, from 0, in v, v/vt, v//vn or v/vt/vn. The upper bound is checked later, since faces may
+    /// precede vertices.
     std::uint32_t corner(std::string_view word) const
     {
         const std::size_t slash = std::min(word.find('/'), word.size());
@@ -114,7 +114,7 @@ private:
         const auto before = static_cast<std::int64_t>(mesh_.vertices.size());
         if (*index < -before)
             fail("the face uses vertex " + std::to_string(*index) + ", but only " + std::to_string(before) +
-                 " vertices stand before it; correct the index");
+                 " vertices precede it; correct the index");
         if (*index > largest_index)
             fail("the face uses vertex " + std::to_string(*index) +
                  ", more than any mesh can have; correct the index");
@@ -148,8 +148,8 @@ private:
                          "; correct the index");
             if (!append_triangles(polygon, mesh_.vertices, mesh_.triangles))
                 fail("the face has " + std::to_string(polygon.size()) +
-                     " corners and is not convex; triangulate the mesh before, above " +
-                     std::to_string(concave_corner_limit) + " corners it is not done here");
+                     " corners and is not convex; triangulate the mesh first: the limit is " +
+                     std::to_string(concave_corner_limit) + " corners");
         }
     }
 

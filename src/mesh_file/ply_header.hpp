@@ -1,4 +1,4 @@
-// The header of a PLY file: which elements follow, and how their rows are stored.
+// The header of a PLY file: its elements, and how their rows are stored.
 #pragma once
 
 #include <cstdint>
@@ -40,14 +40,14 @@ inline bool is_integer(PlyType type) { return type != PlyType::float32 && type !
 
 struct PlyProperty {
     std::string name;
-    PlyType type = PlyType::float32;     ///< of the value, or of each value of a list
+    PlyType type = PlyType::float32;     ///< of the value, or of each item of a list
     std::optional<PlyType> length_type;  ///< set for a list; always an integer type
     std::size_t line = 0;
 };
 
 struct PlyElement {
     std::string name;
-    std::uint64_t count = 0;  ///< as claimed: compare with the size of the file before trusting it
+    std::uint64_t count = 0;  ///< as claimed: compare it with the size of the file before use
     std::vector<PlyProperty> properties;
     std::size_t line = 0;
 };

@@ -1,5 +1,5 @@
-// PLY reader: Turk, The PLY Polygon File Format, 1994. Takes x, y, z of element 'vertex' and the corners of
-// element 'face'; everything else is stepped over, but must be there.
+// PLY reader: Turk, The PLY Polygon File Format, 1994. Reads x, y, z of element 'vertex' and the corners of
+// element 'face'; skips everything else, which must still be complete.
 #include <array>
 #include <limits>
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array<std::string_view, 3> coordinate_names = {"x", "y", "z"};
 
-/// Where the mesh is in the file.
+/// The elements and properties of the mesh in the file.
 struct PlyLayout {
     const PlyElement* vertex = nullptr;
     const PlyElement* face = nullptr;  ///< absent in a point cloud
@@ -87,7 +87,7 @@ PlyLayout layout_of(const MeshSource& source, const PlyHeader& header)
     layout.vertex = element_named(source, header, "vertex");
     if (!layout.vertex || layout.vertex->count == 0)
         mesh_error(source, "the mesh has no vertices; export it again");
-    // The index 2^32 - 1 stays free as a mark.
+    // The index 2^32 - 1 is reserved as a marker.
     if (layout.vertex->count >= std::numeric_limits<std::uint32_t>::max())
         mesh_error_at_line(
             source, layout.vertex->line,
@@ -110,7 +110,7 @@ std::vector<Vec3> read_vertices(Rows& rows, const PlyLayout& layout)
 {
     const PlyElement& element = *layout.vertex;
     std::vector<Vec3> vertices;
-    vertices.reserve(static_cast<std::size_t>(element.count));  // the file has room for them: checked before
+    vertices.reserve(static_cast<std::size_t>(element.count));  // the file is large enough: checked before
     for (std::uint64_t row = 0; row < element.count; ++row) {
         rows.begin(element, row);
         Vec3 vertex;
@@ -181,7 +181,7 @@ SurfaceMesh read_body(const MeshSource& source, const PlyHeader& header, const P
     SurfaceMesh mesh;
     Polygons faces;
     for (const PlyElement& element : header.elements) {
-        if (element.count == 0 || element.properties.empty()) continue;  // rows of nothing take no room
+        if (element.count == 0 || element.properties.empty()) continue;  // rows without values take no bytes
         rows.check_room(element);
         if (&element == layout.vertex)
             mesh.vertices = read_vertices(rows, layout);
@@ -190,15 +190,15 @@ SurfaceMesh read_body(const MeshSource& source, const PlyHeader& header, const P
         else
             skip_rows(rows, element);
     }
-    // What stands after the last row is left alone: several programs append to PLY files.
+    // Data after the last row is ignored: several programs append to PLY files.
 
     mesh.triangles.reserve(faces.corners.size() - 2 * faces.count());
-    for (std::size_t i = 0; i < faces.count(); ++i)  // only now: faces may stand before the vertices
+    for (std::size_t i = 0; i < faces.count(); ++i)  // only now, since faces may precede the vertices
         if (!append_triangles(faces.polygon(i), mesh.vertices, mesh.triangles))
             mesh_error(source, "face " + std::to_string(i) + " has " +
                                    std::to_string(faces.polygon(i).size()) +
-                                   " corners and is not convex; triangulate the mesh before, above " +
-                                   std::to_string(concave_corner_limit) + " corners it is not done here");
+                                   " corners and is not convex; triangulate the mesh first: the limit is " +
+                                   std::to_string(concave_corner_limit) + " corners");
     return mesh;
 }
 

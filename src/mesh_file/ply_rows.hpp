@@ -1,8 +1,9 @@
-// The rows of a PLY body, value by value: the same calls for text (PlyTextRows) and binary (PlyBinaryRows).
-//   check_room(element)       throws when the rest of the file cannot hold the rows the header promises
-//   begin(element, row)       goes to the next row; its values are then taken in the order of the properties
+// The rows of a PLY body, value by value: the same interface for text (PlyTextRows) and binary
+// (PlyBinaryRows).
+//   check_room(element)       throws if the rest of the file cannot hold the rows that the header claims
+//   begin(element, row)       goes to the next row; its values are then read in the order of the properties
 //   coordinate / list_length / integer / skip
-//   end()                     the row must be used up
+//   end()                     throws unless the whole row has been read
 #pragma once
 
 #include <algorithm>
@@ -16,7 +17,7 @@
 
 namespace pliant {
 
-/// The place in the body as messages name it: "vertex 17", counted from 0 as the indices of faces are.
+/// A row's name in messages: "vertex 17", counted from 0 as the indices of faces are.
 struct PlyRowName {
     const PlyElement* element = nullptr;
     std::uint64_t row = 0;
@@ -28,7 +29,7 @@ struct PlyRowName {
     }
 };
 
-/// The message for a claimed count that cannot be true.
+/// The message for a claimed count that is impossible.
 inline std::string too_many_rows(const PlyElement& element, std::size_t bytes_left)
 {
     return "element " + in_quotes(element.name) + " claims a count of " + std::to_string(element.count) +
@@ -45,7 +46,7 @@ public:
 
     void check_room(const PlyElement& element) const
     {
-        // Every value takes a character and a separator, which only the last of the file may lack.
+        // Every value takes a character and a separator, except for the last separator of the file.
         const std::size_t bytes_left = source_.bytes.size() - lines_.position();
         if (element.count > (bytes_left + 1) / (2 * element.properties.size()))
             mesh_error_at_line(source_, element.line, too_many_rows(element, bytes_left));
@@ -130,7 +131,7 @@ private:
     const MeshSource& source_;
     LineScanner lines_;
     WordScanner words_;
-    std::string_view first_;  // of the line: read already, to know that it is not blank
+    std::string_view first_;  // of the line, which is read ahead to skip blank lines
     PlyRowName name_;
 };
 
@@ -145,7 +146,7 @@ public:
 
     void check_room(const PlyElement& element) const
     {
-        std::size_t least = 0;  // bytes of a row whose lists are empty
+        std::size_t least = 0;  // bytes of a row with empty lists
         for (const PlyProperty& property : element.properties)
             least += byte_count(property.length_type.value_or(property.type));
         if (element.count > bytes_left() / least)
@@ -210,14 +211,14 @@ private:
         return value;
     }
 
-    std::int64_t integer_of(PlyType type)  // an integer type: the header and the layout saw to it
+    std::int64_t integer_of(PlyType type)  // the header and the layout guarantee an integer type
     {
         return with_type(type, [&](auto zero) { return static_cast<std::int64_t>(next(zero)); });
     }
 
     const MeshSource& source_;
     std::size_t position_;   // of the next value
-    std::size_t start_ = 0;  // of the value read last, for messages
+    std::size_t start_ = 0;  // of the last value read, for messages
     bool swapped_;
     PlyRowName name_;
 };

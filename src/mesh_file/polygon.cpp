@@ -1,5 +1,5 @@
-// Ear clipping: O'Rourke, Computational Geometry in C, 2nd edition, section 1.6. Whether a corner is an ear
-// only changes when a neighbour is cut off, hence n^2 at worst.
+// Ear clipping: O'Rourke, Computational Geometry in C, 2nd edition, section 1.6. A corner's status as an ear
+// changes only when a neighbour is cut off, hence n^2 at worst.
 #include "mesh_file/polygon.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ struct Point {
 /// Twice the signed area of a triangle: positive when it turns left.
 double turn(Point a, Point b, Point c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
-/// Twice the vector area: a sum over all corners, so that a reflex one does not turn it round.
+/// Twice the area vector: a sum over all corners, so that reflex corners do not reverse it.
 Vec3d doubled_area_vector(std::span<const std::uint32_t> polygon, const std::vector<Vec3>& vertices)
 {
     const Vec3d origin = to_double(vertices[polygon[0]]);
@@ -28,7 +28,7 @@ Vec3d doubled_area_vector(std::span<const std::uint32_t> polygon, const std::vec
     return normal;
 }
 
-/// The polygon seen along the axis closest to its normal, counter-clockwise.
+/// The polygon projected along the axis closest to its normal, counter-clockwise.
 std::vector<Point> flattened(std::span<const std::uint32_t> polygon, const std::vector<Vec3>& vertices)
 {
     const Vec3d normal = doubled_area_vector(polygon, vertices);
@@ -82,7 +82,8 @@ public:
             ring_[corner.next].ear = is_ear(corner.next);
             --left;
             refused = 0;
-            at = ring_[corner.next].next;  // not beside the cut: fewer slivers than going on at the same tip
+            at = ring_[corner.next].next;  // not next to the cut: fewer slivers than continuing at the same
+                                           // tip
         }
         for (std::size_t i = ring_[at].next; ring_[i].next != at; i = ring_[i].next)
             emit(at, i, ring_[i].next);
@@ -101,7 +102,7 @@ private:
         if (turn(a, b, c) <= 0) return false;
         for (std::size_t i = ring_[corner.next].next; i != corner.previous; i = ring_[i].next) {
             const Point p = points_[i];
-            // On the rim blocks as well; at the place of a, b or c (a bridge to a hole) does not.
+            // A point on the border blocks, too; one coincident with a, b or c (a bridge to a hole) does not.
             const bool blocks = turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0;
             if (blocks && p != a && p != b && p != c) return false;
         }

@@ -1,4 +1,4 @@
-// Polygons as the files give them, cut into triangles.
+// Polygons of a file, and their triangulation.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,10 @@
 
 namespace pliant {
 
-/// The faces of a file before they are triangulated, one after the other.
+/// The faces of a file before triangulation, concatenated.
 struct Polygons {
     std::vector<std::uint32_t> corners;
-    std::vector<std::size_t> ends;  ///< where in `corners` each polygon ends
+    std::vector<std::size_t> ends;  ///< the end of each polygon in `corners`
 
     std::size_t count() const { return ends.size(); }
     std::span<const std::uint32_t> polygon(std::size_t i) const
@@ -22,13 +22,13 @@ struct Polygons {
     }
 };
 
-/// Polygons that are not strictly convex may have this many corners: cutting them takes time quadratic in it.
+/// The maximum number of corners of a polygon that is not strictly convex: ear clipping takes quadratic time.
 inline constexpr std::size_t concave_corner_limit = 1000;
 
-/// Appends the n - 2 triangles of a polygon of n >= 3 corners: a fan when it is strictly convex, else cut by
-/// ears, which is right for every simple polygon that is about planar. The rest of a polygon without ears (it
-/// crosses itself, or has no area) becomes a fan. Every index must have its vertex. False, and nothing
-/// appended, when the polygon is not strictly convex and above the limit.
+/// Appends the n - 2 triangles of a polygon of n >= 3 corners: a fan if it is strictly convex, else by ear
+/// clipping, which is correct for every simple polygon that is nearly planar. A remainder without ears (the
+/// polygon intersects itself, or has no area) becomes a fan. Every index must be in range. Returns false, and
+/// appends nothing, if the polygon is not strictly convex and exceeds the limit.
 [[nodiscard]] bool append_triangles(std::span<const std::uint32_t> polygon, const std::vector<Vec3>& vertices,
                                     std::vector<Triangle>& triangles);
 

@@ -18,7 +18,7 @@ std::string_view without_plus(std::string_view word)
     return word;
 }
 
-/// invalid_argument also when the number is followed by anything.
+/// Also invalid_argument if anything follows the number.
 template <class Number>
 std::errc parse(std::string_view word, Number& value)
 {
@@ -61,7 +61,7 @@ std::optional<std::uint64_t> count_from(std::string_view word) { return parsed<s
 
 std::optional<float> float_from(std::string_view word)
 {
-    // Straight to float: going through double would round twice.
+    // Directly to float: via double it would be rounded twice.
     float value = 0;
     std::errc error = parse(word, value);
     if (error == std::errc::result_out_of_range) {

@@ -31,7 +31,7 @@ public:
     explicit PointCache(const std::filesystem::path& file)
         : mesh_path_(std::filesystem::path(file).replace_extension(".obj")), file_(file)
     {
-        const AtomicFile probe(mesh_path_);  // trouble is better known before the run than in it
+        const AtomicFile probe(mesh_path_);  // reports an error before the run instead of during it
         refuse_foreign_mesh();
     }
 
@@ -61,7 +61,7 @@ public:
     }
 
 private:
-    /// The mesh beside the cache may only replace one that Pliant wrote, not the one somebody modelled.
+    /// Only a mesh that Pliant wrote may be replaced by the one beside the cache.
     void refuse_foreign_mesh() const
     {
         std::ifstream existing(mesh_path_);
@@ -120,7 +120,7 @@ std::unique_ptr<CacheFile> make_cache_file(const std::string& name)
     if (ending == ".ply" || ending == ".obj") return std::make_unique<MeshSequence>(name);
     throw Error(
         ErrorKind::bad_usage,
-        "a cache named '" + name + "' is of no known kind: use NAME.pc2, NAME_%04d.ply or NAME_%04d.obj");
+        "the cache '" + name + "' has an unknown extension: use NAME.pc2, NAME_%04d.ply or NAME_%04d.obj");
 }
 
 }  // namespace pliant

@@ -1,4 +1,4 @@
-// Positions of every frame for other programs: point caches and sequences of meshes.
+// Files with the positions of every frame for other programs: point caches and sequences of meshes.
 #pragma once
 
 #include <filesystem>
@@ -9,9 +9,9 @@
 
 namespace pliant {
 
-/// Writes by the ending of the name:
+/// Writes by the file's extension:
 /// - x.pc2: point cache 2, which Blender's Mesh Cache modifier reads, and beside it x.obj, the first mesh
-/// - seq_%04d.ply and seq_%04d.obj: one mesh a frame
+/// - seq_%04d.ply and seq_%04d.obj: one mesh per frame
 ///
 /// The state before the first step is frame 0. Several cloths are written as one mesh, one after the other.
 class CacheFile {
@@ -21,7 +21,7 @@ public:
     virtual void finish() = 0;
 };
 
-/// Throws Error(bad_usage) for another ending, naming the three forms.
+/// Throws Error(bad_usage) for another extension; the message names the three forms.
 std::unique_ptr<CacheFile> make_cache_file(const std::string& name);
 
 }  // namespace pliant

@@ -144,9 +144,8 @@ std::vector<std::string> RunSummary::warnings(const Simulation& simulation) cons
     const SolverReport& solver = simulation.report().solver;
     if (solver.used() && !solver.is_solved())
         sentences.push_back(
-            formatted("steps were not solved: the largest residual is %.3g of what inertia "
-                      "and gravity ask of a step; take more substeps (--set "
-                      "time.substeps=N) or iterations (--set "
+            formatted("steps were not solved: the largest residual is %.3g of the load of its "
+                      "step; take more substeps (--set time.substeps=N) or iterations (--set "
                       "newton_multigrid.newton_iterations=N)",
                       solver.residual_max));
     double limit = 0, thickness = 0;
@@ -220,10 +219,10 @@ std::vector<std::string> failed_checks(const Scene& scene, const std::map<std::s
     std::vector<std::string> failures;
     for (const Check& check : scene.checks) {
         const auto found = values.find(check.value);
-        if (found == values.end()) continue;  // the reader allows only names of the summary
+        if (found == values.end()) continue;  // the reader accepts only names of the summary
         if (found->second >= check.min && found->second <= check.max) continue;
         char text[256];
-        std::snprintf(text, sizeof text, "%s is %.6g, and the scene asks for %.6g to %.6g",
+        std::snprintf(text, sizeof text, "%s is %.6g, but the scene requires %.6g to %.6g",
                       check.value.c_str(), found->second, check.min, check.max);
         failures.emplace_back(text);
     }

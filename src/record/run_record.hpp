@@ -1,4 +1,4 @@
-// What is kept of a run: per-frame statistics (CSV) and the summary (JSON).
+// The records of a run: per-frame statistics (CSV) and the summary (JSON).
 #pragma once
 
 #include <filesystem>
@@ -13,13 +13,13 @@
 namespace pliant {
 
 /// Per-frame statistics as CSV; the header names every column with its unit. newton, iterations, residual and
-/// active_constraints are of the last step of the frame, energy_lost_J is since the start; 0 with the method
-/// mass_spring.
+/// active_constraints are those of the last step of the frame, energy_lost_J is since the start; all are 0
+/// for the method mass_spring.
 class StatisticsFile {
 public:
-    /// `bodies` soft bodies: each has a column with its volume.
+    /// `bodies`: number of soft bodies; each has a column with its volume.
     explicit StatisticsFile(const std::filesystem::path& file, std::size_t bodies = 0);
-    /// The state after a frame; `wall_milliseconds` is what its simulation took.
+    /// Adds the state after a frame; `wall_milliseconds`: time spent in its simulation.
     void add(const Report& report, double wall_milliseconds);
     void finish() { file_.commit(); }
 
@@ -27,18 +27,18 @@ private:
     AtomicFile file_;
 };
 
-/// Gathers what the summary says beyond the last frame.
+/// Collects data for the summary beyond the last frame.
 class RunSummary {
 public:
     /// The state before the first step.
     void begin(const Report& report) { start_penetration_ = report.measures.max_penetration; }
     void add_frame(const Report& report);
 
-    /// What there is to warn of after a run, a sentence each.
+    /// Warnings after a run, a sentence each.
     std::vector<std::string> warnings(const Simulation& simulation) const;
-    /// The keys of the summary that are numbers, by name; for checks and for the JSON.
+    /// The numbers of the summary by key; for checks and for the JSON.
     std::map<std::string, double> values(Simulation& simulation) const;
-    /// Writes the summary as JSON; `wall_seconds` is the whole run's, with pictures and files.
+    /// Writes the summary as JSON; `wall_seconds`: duration of the whole run, including pictures and files.
     void write(const std::filesystem::path& file, Simulation& simulation, double wall_seconds) const;
 
     double max_stretch(double until) const;  ///< over the last simulated second
@@ -55,11 +55,11 @@ private:
     double max_penetration_ = 0, start_penetration_ = 0;
 };
 
-/// Whether springs are so long that a run has plainly diverged, though its numbers are finite: a thousand
-/// times their length at rest, which no pin or collider of a scene that means something asks of them.
+/// Whether a run has diverged although its numbers are finite: a spring is a thousand times as long as at
+/// rest, which no meaningful scene requires.
 bool has_diverged(const FrameMeasures& measures);
 
-/// The scene's checks that do not hold, one sentence each; empty when all do.
+/// The scene's failed checks, one sentence each; empty if all passed.
 std::vector<std::string> failed_checks(const Scene& scene, const std::map<std::string, double>& values);
 
 /// 16 hexadecimal digits.

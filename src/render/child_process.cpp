@@ -10,7 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX leaves it to the program
+extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX requires the program to declare it
 
 namespace pliant {
 namespace {
@@ -20,7 +20,7 @@ namespace {
     throw std::system_error(error, std::generic_category(), what);
 }
 
-/// The files and signals a child starts with.
+/// File descriptors and signals of a new child.
 struct SpawnOptions {
     posix_spawn_file_actions_t files;
     posix_spawnattr_t attributes;
@@ -31,7 +31,8 @@ struct SpawnOptions {
         posix_spawn_file_actions_adddup2(&files, input, STDIN_FILENO);
         posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
         posix_spawn_file_actions_adddup2(&files, complaints, STDERR_FILENO);
-        // A group of its own: Ctrl-C ends us, and the end of its input lets it finish its file.
+        // Its own process group: Ctrl-C ends only us; the child then sees the end of its input and completes
+        // its file.
         posix_spawnattr_init(&attributes);
         posix_spawnattr_setflags(&attributes,
                                  POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
@@ -56,12 +57,11 @@ struct SpawnOptions {
 
 ChildProcess::ChildProcess(const std::vector<std::string>& arguments)
 {
-    // Standard error goes to a file without a name: a pipe could fill up while the child waits for us to read
-    // it.
+    // Standard error goes to an unnamed file: a pipe could fill up and block the child until we read it.
     said_.reset(std::tmpfile());
     if (!said_) fail(errno, "a temporary file");
     ::fcntl(::fileno(said_.get()), F_SETFD, FD_CLOEXEC);
-    // A socket and not a pipe, because only sockets can be written to without the danger of SIGPIPE.
+    // A socket instead of a pipe, since only sockets can be written to without SIGPIPE.
     int ends[2];
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) fail(errno, "a socket");
     input_ = ends[0];

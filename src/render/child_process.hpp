@@ -1,4 +1,4 @@
-// A program that reads what is written to it.
+// A child program that reads from us.
 #pragma once
 
 #include <cstddef>
@@ -11,21 +11,21 @@
 
 namespace pliant {
 
-/// Started without a shell, so that no argument is ever interpreted. What it says (standard error) is kept;
-/// what it prints is dropped. It is waited for at the latest when this is destroyed: no zombie stays.
+/// Started without a shell, so arguments are never interpreted. Its standard error is kept, its standard
+/// output discarded. The destructor waits for it, so no zombie remains.
 class ChildProcess {
 public:
-    /// Looks for `arguments[0]` on the path. Throws std::system_error when it cannot be started.
+    /// Searches the PATH for `arguments[0]`. Throws std::system_error if it cannot be started.
     explicit ChildProcess(const std::vector<std::string>& arguments);
     ~ChildProcess();
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
 
-    /// False when the program has stopped reading. Never raises SIGPIPE.
+    /// False if the program has stopped reading. Never raises SIGPIPE.
     bool write(const void* data, std::size_t size) noexcept;
-    /// Ends its input, waits for it, and tells whether it succeeded.
+    /// Closes its input, waits for it, and returns whether it succeeded.
     bool finish() noexcept;
-    /// What it has said so far, without the white space at the end.
+    /// Its standard error so far, without trailing white space.
     std::string complaint() const;
 
 private:

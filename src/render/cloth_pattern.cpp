@@ -16,7 +16,7 @@ std::vector<Place> sheet_pattern(const Cloth& cloth, std::uint32_t rows, std::ui
     if (const auto* sheet = std::get_if<SheetOptions>(&cloth.shape))
         width = sheet->width, height = sheet->height;
     const double edge = std::min(width, height) / pattern_squares;
-    // Whole squares both ways: the pattern ends at the hem.
+    // Whole squares in both directions, so that the pattern ends at the hem.
     const double across = std::max(1.0, std::round(width / edge)),
                  along = std::max(1.0, std::round(height / edge));
     std::vector<Place> places;
@@ -62,7 +62,7 @@ std::vector<std::array<float, 2>> cloth_pattern(const Cloth& cloth, std::uint32_
         places = mesh_pattern(mesh->vertices);
     else if (const auto* disc = std::get_if<DiscOptions>(&cloth.shape))
         places = mesh_pattern(make_disc(disc->radius, disc->rings).vertices);
-    places.resize(node_count, {0.5f, 0.5f});  // nodes that the scene knows nothing of are plain
+    places.resize(node_count, {0.5f, 0.5f});  // nodes that are not in the scene get no pattern
     return places;
 }
 

@@ -1,4 +1,4 @@
-// An image on the device with its own memory and one view of the whole of it.
+// A device image with its memory and one view of the whole image.
 #pragma once
 
 #include "backend/vulkan/device.hpp"

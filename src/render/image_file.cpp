@@ -42,7 +42,7 @@ void write_png(const std::filesystem::path& file, const Image& image)
         throw Error(ErrorKind::bad_input, "cannot write '" + file.string() + "': the picture has no pixels");
     const int width = static_cast<int>(image.width), height = static_cast<int>(image.height);
     AtomicFile out(file);
-    const bool encoded =  // pictures of a scene are opaque, and a quarter smaller without alpha
+    const bool encoded =  // pictures of a scene are opaque; without alpha, files are a quarter smaller
         opaque(image)
             ? stbi_write_png_to_func(append, &out.stream(), width, height, 3, without_alpha(image).data(), 0)
             : stbi_write_png_to_func(append, &out.stream(), width, height, 4, image.rgba.data(), 0);

@@ -25,7 +25,7 @@ std::array<std::uint32_t, 4> codes_of(std::string_view text)
 LegendText legend_text(const ValueScale& scale)
 {
     LegendText text{codes_of(scale.title), codes_of(scale.low_text), {}};
-    // The upper end is written to the right of its field, which has eight letters.
+    // The upper end is right-aligned in a field of eight letters.
     constexpr std::size_t field = 8;
     const std::string& high = scale.high_text;
     text.high = codes_of(std::string(field - std::min(field, high.size()), ' ') + high);

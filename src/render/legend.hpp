@@ -1,4 +1,4 @@
-// The legend of a picture whose cloth is coloured by a value.
+// The legend of a picture whose cloth is coloured by values.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ struct LegendText {
     std::array<std::uint32_t, 4> title, low, high;
 };
 
-/// Letters that the legend does not have become blanks.
+/// Letters that the legend lacks become blanks.
 LegendText legend_text(const ValueScale& scale);
 
 }  // namespace pliant

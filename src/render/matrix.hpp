@@ -1,5 +1,4 @@
-// The few 4 x 4 matrices that a picture needs. Columns first, as GLSL has them; doubles until they are
-// uploaded.
+// 4 x 4 matrices for rendering. Column-major, as in GLSL; in double until they are uploaded.
 #pragma once
 
 #include <array>
@@ -43,8 +42,7 @@ inline Vec3d normalized(Vec3d a, Vec3d otherwise)
     return size > 0 ? a * (1 / size) : otherwise;
 }
 
-/// From the world to a frame at `eye` that looks along its own -z, with the world's y upwards where that is
-/// possible.
+/// View matrix of a frame at `eye` that looks along its own -z, with the world's y upwards if possible.
 inline Matrix4 look_along(Vec3d eye, Vec3d direction)
 {
     const Vec3d back = normalized(direction, {0, 0, -1}) * -1;
@@ -66,7 +64,8 @@ inline Matrix4 perspective(double vertical_angle, double width_by_height, double
               {0, 0, near * far * depth, 0}}}};
 }
 
-/// A box [min, max] of a frame that looks along -z, onto [0, 1]^3, depth growing along -z.
+/// Orthographic projection of the box [min, max] of a frame that looks along -z onto [0, 1]^3; depth grows
+/// along -z.
 inline Matrix4 unit_box(Vec3d min, Vec3d max)
 {
     const Vec3d scale{1 / (max.x - min.x), 1 / (max.y - min.y), -1 / (max.z - min.z)};

@@ -47,7 +47,8 @@ OffscreenTarget::OffscreenTarget(const Device& device, vk::Extent2D size)
 
 void OffscreenTarget::record_copy(const vk::raii::CommandBuffer& commands, const vk::Rect2D& part) const
 {
-    // The render pass has left the picture in the layout for copying, and ordered its writes before the copy.
+    // The render pass has changed the picture to the layout for copying, and ordered its writes before the
+    // copy.
     const auto x = static_cast<std::uint32_t>(part.offset.x), y = static_cast<std::uint32_t>(part.offset.y);
     commands.copyImageToBuffer(
         *picture_.handle, format_.final_layout, *copy_,

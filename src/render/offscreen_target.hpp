@@ -1,4 +1,4 @@
-// A picture that no one sees: drawn to an image of the device and copied to the host.
+// Off-screen pictures: drawn to a device image and copied to the host.
 #pragma once
 
 #include "pliant/render.hpp"
@@ -8,19 +8,19 @@ namespace pliant::vulkan {
 
 class OffscreenTarget {
 public:
-    /// Throws Error(device_failure) when the device cannot draw a picture of this size.
+    /// Throws Error(device_failure) if the device cannot draw a picture of this size.
     OffscreenTarget(const Device& device, vk::Extent2D size);
 
     const PictureFormat& format() const { return format_; }
     PictureTarget target() const { return buffers_.target(*framebuffer_); }
-    /// The same for a part of the picture; the rest stays what it was.
+    /// The same for a part of the picture; the rest is unchanged.
     PictureTarget target(const vk::Rect2D& part) const { return buffers_.target(*framebuffer_, part); }
 
-    /// Behind the drawing, in the same commands: the picture, or the part that was drawn, on its way to the
+    /// Records, after the drawing commands, a copy of the picture, or of the part that was drawn, to the
     /// host.
     void record_copy(const vk::raii::CommandBuffer& commands) const { record_copy(commands, {{}, size_}); }
     void record_copy(const vk::raii::CommandBuffer& commands, const vk::Rect2D& part) const;
-    /// When those have run. Allocates only if `into` had another size.
+    /// Call it after those commands have run. Allocates only if `into` had another size.
     void read(Image& into) const;
 
 private:

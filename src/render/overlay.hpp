@@ -1,4 +1,4 @@
-// What a picture can show beside the cloth itself.
+// Overlays: what a picture can show besides the cloth itself.
 #pragma once
 
 #include <array>
@@ -12,18 +12,18 @@
 namespace pliant {
 
 enum class Overlay : std::uint8_t {
-    strain,       ///< the largest stretch of the structural and shear springs at each node, as colour
+    strain,       ///< the largest strain of the structural and shear springs at each node, as colour
     springs,      ///< lines, coloured by class
-    active,       ///< springs that a constraint holds, as lines
+    active,       ///< springs held by a constraint, as lines
     multipliers,  ///< the largest force of a constraint at each node, as colour
-    contacts,     ///< nodes that touch a collider, as points
+    contacts,     ///< nodes in contact with a collider, as points
     normals,      ///< lines
-    volume,       ///< how far the volume of each soft body is from what it should be, as colour
+    volume,       ///< deviation of each soft body's volume from its target, as colour
     wireframe,    ///< edges of triangles
 };
 constexpr std::size_t overlay_count = 8;
 
-/// By the order of the enumeration; also what `--overlay` takes.
+/// In the order of the enumeration; the names that `--overlay` accepts.
 constexpr std::array<const char*, overlay_count> overlay_names{"strain",   "springs", "active", "multipliers",
                                                                "contacts", "normals", "volume", "wireframe"};
 
@@ -35,7 +35,7 @@ public:
         for (const Overlay overlay : overlays) set(overlay, true);
     }
     constexpr bool has(Overlay overlay) const { return bits_ >> static_cast<int>(overlay) & 1; }
-    /// Of the three that colour the cloth only one can be seen: the last that was set.
+    /// Only one of the three overlays that colour the cloth is visible: the last one set.
     constexpr void set(Overlay overlay, bool on)
     {
         if (on && is_colour(overlay))
@@ -67,11 +67,11 @@ inline std::optional<Overlay> overlay_of(std::string_view name)
     return std::nullopt;
 }
 
-/// What the colours of a cloth stand for, and what the legend says of it. Short texts of the characters in
+/// The range of a cloth's colours and the text of its legend. Texts are short and use the characters of
 /// `legend_text`.
 struct ValueScale {
     float low = 0, high = 0.10f;
-    bool diverging = false;  ///< blue below the middle, red above, white in it
+    bool diverging = false;  ///< blue below the middle, white in the middle, red above
     std::string title = "strain", low_text = "0 %", high_text = "10 %";
 };
 

@@ -24,7 +24,7 @@ vk::AttachmentDescription attachment(vk::Format format, vk::AttachmentLoadOp loa
             vk::SampleCountFlagBits::e1,
             load,
             store,
-            vk::AttachmentLoadOp::eDontCare,  // of a stencil
+            vk::AttachmentLoadOp::eDontCare,  // stencil
             vk::AttachmentStoreOp::eDontCare,
             first_layout,
             final_layout};
@@ -55,8 +55,8 @@ vk::raii::RenderPass make_surface_pass(const Device& device, const PictureFormat
                 vk::FormatFeatureFlagBits::eSampledImage);
     require(device, depth_format,
             vk::FormatFeatureFlagBits::eDepthStencilAttachment | vk::FormatFeatureFlagBits::eSampledImage);
-    // The backdrop covers every pixel that nothing else does: colours need no clearing. Before: the picture
-    // before reads them no more, nor depth. After: the pass of the picture reads both.
+    // The backdrop covers all remaining pixels, so colours need no clear. Before: the previous picture has
+    // finished reading colours and depth. After: the picture pass reads both.
     const auto written = Access::eColorAttachmentWrite | Access::eDepthStencilAttachmentWrite;
     return make_pass(
         device,
@@ -81,7 +81,7 @@ vk::raii::RenderPass make_picture_pass(const Device& device, const PictureFormat
     using Layout = vk::ImageLayout;
     using Step = vk::PipelineStageFlagBits;
     using Access = vk::AccessFlagBits;
-    // Before: the last picture has been copied or shown. After: this one may be copied.
+    // Before: the last picture has been copied or presented. After: this one may be copied.
     return make_pass(
         device,
         attachment(format.colour, Load::eDontCare, Store::eStore,

@@ -1,5 +1,5 @@
-// The two render passes that a picture is drawn in, and the images between them. The same for every target:
-// what differs is the image that receives the finished picture (an off-screen image, or one of a window).
+// The two render passes of a picture, and the images between them. Targets differ only in the image that
+// receives the finished picture (an off-screen image or one of a window).
 #pragma once
 
 #include "backend/vulkan/device.hpp"
@@ -7,25 +7,26 @@
 
 namespace pliant::vulkan {
 
-/// Fixed for the life of a renderer; pipelines are made for it.
+/// Fixed for the life of a renderer: pipelines depend on it.
 struct PictureFormat {
-    vk::Format colour = vk::Format::eR8G8B8A8Srgb;  ///< an sRGB format: the shaders write linear light
+    vk::Format colour = vk::Format::eR8G8B8A8Srgb;  ///< an sRGB format: the shaders write linear values
     vk::ImageLayout final_layout = vk::ImageLayout::eTransferSrcOptimal;  ///< of the finished picture
-    bool keeps = false;  ///< the picture begins in that layout, too, and stays where nothing is drawn
+    bool keeps = false;  ///< the previous picture is preserved where nothing is drawn; it begins in that
+                         ///< layout
 };
 
 constexpr vk::Format depth_format = vk::Format::eD32Sfloat;
 
-/// What pipelines are made for.
+/// The render passes for which pipelines are made.
 struct PicturePassHandles {
-    vk::RenderPass surfaces;  ///< colour and depth of what is seen, one sample for each pixel
+    vk::RenderPass surfaces;  ///< colour and depth of the visible surfaces, one sample per pixel
     vk::RenderPass
-        picture;  ///< over it: smooth outlines, overlays, an interface; depth is only compared with
+        picture;  ///< on top: smooth outlines, overlays, a user interface; tests depth without writing it
 };
 
 class PicturePasses {
 public:
-    /// Throws Error(device_failure) when the device cannot draw to these formats.
+    /// Throws Error(device_failure) if the device cannot draw to these formats.
     PicturePasses(const Device& device, const PictureFormat& format);
 
     PicturePassHandles handles() const { return {*surfaces_, *picture_}; }
@@ -34,25 +35,26 @@ private:
     vk::raii::RenderPass surfaces_, picture_;
 };
 
-/// How pipelines bind the surfaces that were drawn: shaders/drawn.glsl.
+/// Descriptor set layout of the drawn surfaces: shaders/drawn.glsl.
 vk::raii::DescriptorSetLayout make_drawn_layout(const Device& device);
 
-/// Where to draw to.
+/// The target of a picture.
 struct PictureTarget {
     PicturePassHandles passes;
     vk::Framebuffer surfaces, picture;
-    vk::DescriptorSet drawn;  ///< the surfaces, for the pass of the picture
+    vk::DescriptorSet drawn;  ///< the surfaces, for the picture pass
     vk::Extent2D size;
-    vk::Rect2D part{{}, size};  ///< what is drawn; less than the whole only where the format keeps the rest
+    vk::Rect2D part{{}, size};  ///< the part to draw; smaller than the whole only if the format preserves the
+                                ///< rest
 };
 
-/// The images behind a picture of one size: its surfaces' colour and depth.
+/// The intermediate images for pictures of one size: colour and depth of surfaces.
 class PictureBuffers {
 public:
     PictureBuffers(const Device& device, const PictureFormat& format, PicturePassHandles passes,
                    vk::Extent2D size);
 
-    /// A framebuffer of the second pass, that leaves its result in `picture`.
+    /// A framebuffer of the second pass that writes to `picture`.
     vk::raii::Framebuffer make_framebuffer(const Device& device, vk::ImageView picture) const;
     PictureTarget target(vk::Framebuffer picture, const vk::Rect2D& part) const
     {

@@ -24,7 +24,7 @@ PictureRecorder::PictureRecorder(const std::filesystem::path& file, double frame
                     "--render '" + file.string() +
                         "' is not a picture or a video: it must be x.png (the last frame), "
                         "frames_%04d.png (a file for each frame, with one %d or %0Nd) or x.mp4 (a video)");
-    // A folder or an encoder that is missing is better known before the run than after it.
+    // A missing folder or encoder should be reported before the run, not after it.
     if (form_ == Form::video)
         const VideoFile probe(file_, 2, 2, frame_rate_);
     else

@@ -1,4 +1,4 @@
-// Where the pictures of a run go: `--render F`, by the ending of its name.
+// Writes the pictures of a run: `--render F`, by the file's extension.
 #pragma once
 
 #include <cstdint>
@@ -14,16 +14,17 @@ namespace pliant {
 
 class PictureRecorder {
 public:
-    /// `x.png`: the last frame; `frames_%04d.png`: a file for each frame, 0 being the start; `x.mp4`: a video
-    /// from frame 1 on. Throws Error(bad_usage) for any other name, Error(bad_input) when the folder is
-    /// missing or closed.
+    /// `x.png`: the last frame; `frames_%04d.png`: a file per frame, with 0 at the start; `x.mp4`: a video
+    /// from frame 1 on. Throws Error(bad_usage) for any other name, Error(bad_input) if the folder is missing
+    /// or not writable.
     PictureRecorder(const std::filesystem::path& file, double frame_rate);
 
-    /// Is this frame going to be kept? A frame that is not needs no drawing.
+    /// Whether this frame is written; other frames need not be drawn.
     bool wants(std::uint64_t frame_index, bool last) const;
-    /// Throws Error(bad_input) when the file cannot be written.
+    /// Throws Error(bad_input) if the file cannot be written.
     void add(const Image& image, std::uint64_t frame_index);
-    /// Completes a video. Without it, by an exception for one, a video still keeps what was added.
+    /// Completes a video. Without it, for example after an exception, a video still contains the frames
+    /// added.
     void finish();
 
 private:
@@ -34,8 +35,8 @@ private:
     std::filesystem::path file_;
     double frame_rate_;
     Form form_ = Form::still;
-    std::optional<NumberedName> names_;  // of a sequence
-    std::unique_ptr<VideoFile> video_;   // from the first picture on, which has its size
+    std::optional<NumberedName> names_;  // for a sequence
+    std::unique_ptr<VideoFile> video_;   // created with the first picture, in its size
 };
 
 }  // namespace pliant

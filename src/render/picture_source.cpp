@@ -117,7 +117,7 @@ void PictureSource::gather_contacts(Simulation& simulation)
         const auto shape = make_collider<double>(placed_at(collider, simulation.time()));
         for (std::size_t c = 0; c < scene.cloth_count(); ++c) {
             const double thickness = scene.cloth(c).thickness;
-            // A node that rests keeps the thickness as its distance, up to the rounding of positions.
+            // A resting node keeps the thickness as its distance, up to rounding of positions.
             const double reach = 1.05 * thickness + 1e-5;
             for (const Vec3& x : simulation.positions(c)) {
                 const double gap =

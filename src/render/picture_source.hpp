@@ -1,4 +1,4 @@
-// What pictures of a simulation are made from: frames on the device or the host, and what overlays need.
+// The data for pictures of a simulation: frames on the device or the host, and data for overlays.
 #pragma once
 
 #include <span>
@@ -9,25 +9,24 @@
 
 namespace pliant {
 
-/// One for each cloth.
+/// One per cloth.
 std::vector<ClothTopology> topologies_of(const Simulation& simulation);
-/// Springs of a cloth, as Simulation::springs has them.
+/// The springs of a cloth, in the order of Simulation::springs.
 std::vector<DrawnSpring> drawn_springs(const Simulation& simulation, std::size_t cloth);
 
-/// What a picture of a simulation at a moment is made from. It holds copies, so that the simulation may go
-/// on, and keeps their memory, so that gathering allocates the first time alone.
+/// The data for a picture of a simulation at one time. It holds copies, so that the simulation may continue,
+/// and reuses their memory, so that only the first call allocates.
 class PictureSource {
 public:
-    /// Takes from a simulation what a picture with these overlays needs; no positions where the simulation is
-    /// direct, and those of another source where one is given.
+    /// Copies the data for a picture with these overlays. Omits positions if the simulation is direct; uses
+    /// those of `instead` if given.
     void gather(Simulation& simulation, OverlaySet overlays, const PictureSource* instead = nullptr);
-    /// Only what overlays need, of the same state.
+    /// Copies only the data for overlays, of the same state.
     void gather_overlays(Simulation& simulation, OverlaySet overlays);
     /// Whether pictures can be drawn from positions on the device.
     static bool is_direct(Simulation& simulation)
     {
-        // The nodes of soft bodies and meshes lie in an order of their own, and bodies against an origin,
-        // too.
+        // Nodes of soft bodies and meshes have another order; bodies also have another origin.
         for (std::size_t c = 0; c < simulation.scene().cloth_count(); ++c)
             if (!simulation.node_of_vertex(c).empty()) return false;
         return simulation.device_state() != nullptr;
@@ -54,7 +53,7 @@ private:
     ValueScale scale_;
 };
 
-/// The cloths of a simulation as they are now: valid until its next step.
+/// The present cloths of a simulation: valid until its next step.
 std::vector<ClothFrame> frames_of(Simulation& simulation, const PictureSource& source);
 
 }  // namespace pliant

@@ -13,7 +13,7 @@ namespace {
 static_assert(sizeof(ShapePlacement) == push_constant_bytes &&
               sizeof(GroundPlacement) <= push_constant_bytes && sizeof(LegendText) <= push_constant_bytes);
 
-// SPIR-V as the build makes it from shaders/.
+// SPIR-V that the build compiles from shaders/.
 constexpr std::uint32_t backdrop_frag[] = {
 #include "shaders/backdrop.frag.inc"
 };
@@ -80,20 +80,21 @@ constexpr std::uint32_t shape_shadow_vert[] = {
 
 using Code = std::span<const std::uint32_t>;
 
-/// What is particular about a pipeline.
+/// The parameters of one pipeline.
 struct Recipe {
     Code vertex;
-    Code fragment = {};  ///< without, only depth is drawn
+    Code fragment = {};  ///< empty: only depth is drawn
     vk::PrimitiveTopology topology = vk::PrimitiveTopology::eTriangleList;
-    bool shape_vertices = false;  ///< ShapeVertex in, else the shader pulls or makes its vertices
+    bool shape_vertices = false;  ///< vertices are ShapeVertex; otherwise the shader fetches or generates
+                                  ///< them
     bool one_sided = false;
-    bool behind_everything = false;  ///< covers only pixels that nothing has covered
+    bool behind_everything = false;  ///< covers only pixels without other surfaces
     bool over_everything = false;
     bool over_surfaces = false;  ///< in the second pass
-    bool blended = false;        ///< as much as its alpha says
+    bool blended = false;        ///< alpha blending
 };
 
-/// What the pipelines of a pass have in common.
+/// The common parameters of the pipelines in a pass.
 struct Pass {
     vk::RenderPass pass;
     bool casts_shadows = false;
@@ -126,11 +127,11 @@ vk::raii::Pipeline make_pipeline(const Device& device, vk::PipelineLayout layout
     const vk::PipelineViewportStateCreateInfo viewport({}, 1, nullptr, 1, nullptr);
     vk::PipelineRasterizationStateCreateInfo raster;
     raster.cullMode = recipe.one_sided ? vk::CullModeFlagBits::eBack : vk::CullModeFlagBits::eNone;
-    // The shadow map's y runs upwards, and so mirrors the turning of a triangle.
+    // The shadow map's y points up, which flips the winding.
     raster.frontFace = pass.casts_shadows ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise;
     raster.lineWidth = 1;
     if (pass.casts_shadows) {
-        // A surface seen edge-on by the sun spans much depth in one texel.
+        // A surface nearly parallel to the sun's rays covers a large range of depth in one texel.
         raster.depthBiasEnable = VK_TRUE;
         raster.depthBiasConstantFactor = 2.0f;
         raster.depthBiasSlopeFactor = 2.0f;
@@ -256,7 +257,7 @@ Buffer make_filled(const Device& device, const std::vector<T>& data, vk::BufferU
     return buffer;
 }
 
-/// The places of vertices, as shaders/shape_outline.vert takes them.
+/// Corners of edges, as input of shaders/shape_outline.vert.
 std::vector<std::array<float, 4>> corners_of(const ShapeMeshes& meshes)
 {
     std::vector<std::array<float, 4>> corners;

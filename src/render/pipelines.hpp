@@ -1,4 +1,4 @@
-// The pipelines of a picture: one for each kind of thing, and one more for the shadow it casts.
+// The pipelines of a picture: one per kind of object, and one more for its shadow.
 #pragma once
 
 #include <array>
@@ -21,17 +21,17 @@ enum class Drawn : std::uint8_t {
     legend,
     lines,   ///< springs, normals, edges
     points,  ///< contacts
-    drawn,   ///< the surfaces, from the first pass into the second
+    drawn,   ///< copies the surfaces from the first pass into the second
     cloth_outline,
     shape_outline,
 };
 constexpr std::size_t drawn_count = 12;
 
-/// Everything that pictures of one format need, whatever they show: scenes come and go, this stays.
+/// The objects that all pictures of one format share, independent of the scene.
 class PictureKit {
 public:
-    /// For targets of these passes, of any size.
-    /// Throws Error(device_failure) where a shader is beyond the limits of the device.
+    /// For targets of these passes, of any size. Throws Error(device_failure) if a shader exceeds the
+    /// device's limits.
     PictureKit(std::shared_ptr<Device> device, PicturePassHandles passes);
 
     const std::shared_ptr<Device>& device() const { return device_; }
@@ -41,9 +41,10 @@ public:
     vk::DescriptorSetLayout surface_set() const { return *surface_set_; }
     vk::PipelineLayout layout() const { return *layout_; }
     vk::PipelineLayout surface_layout() const { return *surface_layout_; }
-    /// Made when it is first asked for.
+    /// Made on first use.
     vk::Pipeline pipeline(Drawn drawn) const;
-    /// Computes what is seen of a cloth's nodes, in groups of `surface_group`: shaders/cloth_surface.comp.
+    /// Computes the visible state of a cloth's nodes, in groups of `surface_group`:
+    /// shaders/cloth_surface.comp.
     vk::Pipeline surface() const { return *surface_; }
     static constexpr std::uint32_t surface_group = 64;
 
@@ -59,8 +60,9 @@ private:
     ShadowMap shadow_map_;
     vk::raii::DescriptorSetLayout frame_set_;                ///< set 0: uniforms and shadow map
     vk::raii::DescriptorSetLayout drawn_set_, surface_set_;  ///< set 1, see drawn_bindings
-    vk::raii::DescriptorSetLayout picture_set_;              ///< set 2: what the first pass has drawn
-    vk::raii::PipelineLayout layout_;  ///< one for all that is drawn; push constants for what needs them
+    vk::raii::DescriptorSetLayout picture_set_;              ///< set 2: the result of the first pass
+    vk::raii::PipelineLayout layout_;  ///< shared by all drawing pipelines, with push constants for those
+                                       ///< that need them
     vk::raii::PipelineLayout surface_layout_;  ///< with the same push constants
     vk::raii::Pipeline surface_;
     mutable std::array<vk::raii::Pipeline, drawn_count> pipelines_;
@@ -72,13 +74,13 @@ private:
 
 constexpr std::uint32_t push_constant_bytes = 96;
 
-/// Storage buffers of shaders/cloth_nodes.glsl: what is drawn binds some of them, cloth_surface.comp others.
-/// Both together would be more than some devices can bind at once.
+/// Storage buffers of shaders/cloth_nodes.glsl: drawing shaders bind some of them, cloth_surface.comp others.
+/// All together would exceed the limits of some devices.
 constexpr std::uint32_t cloth_binding_count = 12;
 constexpr std::array<std::uint32_t, 8> drawn_bindings{0, 1, 2, 3, 5, 6, 7, 11};
 constexpr std::array<std::uint32_t, 7> surface_bindings{0, 1, 2, 4, 8, 9, 10};
 
-/// A shader of pictures, and which buffers of a cloth its layout binds.
+/// A shader of pictures, and the cloth buffers in its layout.
 struct PictureShader {
     const char* name;
     std::span<const std::uint32_t> code;

@@ -9,7 +9,7 @@
 namespace pliant {
 namespace {
 
-/// What Vulkan throws, as the one error that Pliant throws.
+/// Converts Vulkan's exceptions to Error.
 template <class Action>
 auto on_device(const vulkan::Device& device, Action&& action)
 {
@@ -50,7 +50,7 @@ struct Renderer::Implementation {
     vulkan::SceneDrawing drawing;
     vk::raii::CommandBuffer commands;
 
-    /// What the target shows, where that is known: it differs from the empty stage in the area alone.
+    /// The present content of the target, if known: it differs from the empty stage only in the area.
     struct Shown {
         Camera camera;
         OverlaySet overlays;
@@ -58,7 +58,7 @@ struct Renderer::Implementation {
     };
     std::optional<Shown> shown;
 
-    /// What must be drawn for the picture that is prepared, and is shown then.
+    /// The area to draw for the prepared picture; `next`: the content after that.
     PixelArea missing(const PictureState& state, std::optional<Shown>& next) const
     {
         const vk::Extent2D size = target.target().size;
@@ -105,7 +105,7 @@ void Renderer::draw(const PictureState& state, Image& into)
         drawing.prepare(state, target.target().size);
         std::optional<Implementation::Shown> next;
         const PixelArea area = implementation_->missing(state, next);
-        shown.reset();  // until it is drawn
+        shown.reset();  // unknown until it is drawn
         if (!area.empty()) {
             const vk::Rect2D part({static_cast<std::int32_t>(area.left), static_cast<std::int32_t>(area.top)},
                                   {area.width(), area.height()});

@@ -1,4 +1,4 @@
-// Pictures of a simulation, drawn off-screen.
+// Renders pictures of a simulation off-screen.
 #pragma once
 
 #include <memory>
@@ -10,25 +10,25 @@
 
 namespace pliant {
 
-/// Draws a scene as its camera sees it. With a simulation on Vulkan give it the simulation's own device
-/// (DeviceState::device()), and frames need not leave the device.
+/// Draws a scene from its camera. With a simulation on Vulkan, pass the simulation's device
+/// (DeviceState::device()), so that frames stay on the device.
 class Renderer {
 public:
-    /// One topology for each cloth of the scene. Throws Error(device_failure) when the device cannot draw.
+    /// One topology per cloth of the scene. Throws Error(device_failure) if the device cannot draw.
     Renderer(std::shared_ptr<vulkan::Device> device, const Scene& scene,
              std::span<const ClothTopology> topologies);
     ~Renderer();
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
-    /// The scene at a time in s, which places the colliders. Throws Error(device_failure) when the device is
-    /// lost.
+    /// Draws the scene at a time in s, which determines the colliders. Throws Error(device_failure) if the
+    /// device is lost.
     Image draw(double time, std::span<const ClothFrame> frames);
-    /// The same into a picture that is kept from frame to frame: no allocation.
+    /// The same into an existing picture, without allocation.
     void draw(double time, std::span<const ClothFrame> frames, Image& into);
-    /// The same with overlays and a camera of its own; its size is that of the scene's camera.
+    /// The same with overlays and another camera; the size is that of the scene's camera.
     void draw(const PictureState& state, Image& into);
-    /// Springs of a cloth, for the overlays that show them.
+    /// Springs of a cloth, for overlays that show springs.
     void set_springs(std::size_t cloth, std::span<const DrawnSpring> springs);
 
 private:

@@ -11,9 +11,9 @@ namespace {
 
 using Usage = vk::BufferUsageFlagBits;
 
-constexpr std::uint32_t floats_uploaded = 3, floats_on_device = 4;  // of a node
+constexpr std::uint32_t floats_uploaded = 3, floats_on_device = 4;  // per node
 
-/// Lists of pairs, one list for each node, as shaders take them: where each begins, then all of them.
+/// Lists of pairs, one list per node, in the layout of the shaders: first the beginnings, then all pairs.
 class PairLists {
 public:
     explicit PairLists(std::uint32_t node_count) : begins_(node_count + 1, 0) {}
@@ -294,7 +294,7 @@ void SceneDrawing::take_extras(const ClothDrawing& cloth, ClothSlot& slot, const
         static_cast<std::uint32_t>(std::min<std::size_t>(extras.contacts.size(), cloth.node_count));
     if (slot.point_count == 0) return;
     static_assert(sizeof(ContactPoint) == 4 * sizeof(float));
-    if (slot.points.size == 0)  // as many as there can be, so that it need not grow
+    if (slot.points.size == 0)  // the maximum number, so that it never grows
         slot.points = device_->make_buffer(sizeof(ContactPoint) * cloth.node_count, Usage::eStorageBuffer,
                                            Memory::upload, "contact points");
     std::memcpy(slot.points.mapped, extras.contacts.data(), slot.point_count * sizeof(ContactPoint));

@@ -1,4 +1,4 @@
-// What is drawn: the cloths, colliders, floor and light of a scene. It knows no target: an off-screen picture
+// Draws the cloths, colliders, floor and light of a scene. Independent of the target: an off-screen picture
 // and a window record the same commands.
 #pragma once
 
@@ -25,82 +25,82 @@ struct DrawnSpring {
     float rest_length = 0;  ///< m
 };
 
-/// What does not change of a cloth.
+/// The fixed data of a cloth.
 struct ClothTopology {
     std::span<const Triangle> triangles;
     std::uint32_t node_count = 0;
     std::uint32_t rows = 0, columns = 0;  ///< of a sheet; 0 for a mesh
 };
 
-/// A cloth at a moment, in the memory of the host: one entry for each node.
+/// A cloth at one time, in host memory: one entry per node.
 struct HostCloth {
     std::span<const Vec3> positions;    ///< m
-    std::span<const Vec3> before = {};  ///< of the state before; may be empty without blending
+    std::span<const Vec3> before = {};  ///< of the previous state; may be empty without blending
 };
 
-/// The same on the device: a vec4 for each node, whose w counts for nothing.
+/// The same on the device: a vec4 per node; w is ignored.
 struct DeviceCloth {
     vk::Buffer positions;
     std::uint32_t node_count = 0;
     vk::Buffer before = {};  ///< may be null without blending
 };
 
-/// A cloth at a moment: on the host, or where the simulation has it on the device.
+/// A cloth at one time, on the host or on the device.
 using ClothFrame = std::variant<HostCloth, DeviceCloth>;
 
-/// A node that touches a collider.
+/// A node in contact with a collider.
 struct ContactPoint {
     Vec3 position;    ///< m
-    float depth = 0;  ///< m, that it has sunk in
+    float depth = 0;  ///< m, its penetration
 };
 
-/// What overlays need of a cloth beside its frame, from the host; what is not needed may be empty.
+/// Data of a cloth for overlays besides its frame, from the host; unused fields may be empty.
 struct ClothExtras {
-    std::span<const float> values = {};        ///< the colour at each node, instead of the strains
-    std::span<const std::uint32_t> held = {};  ///< by spring: 1 where a constraint holds it
+    std::span<const float> values = {};        ///< by node: shown as colour instead of strains
+    std::span<const std::uint32_t> held = {};  ///< by spring: 1 if a constraint holds it
     std::span<const ContactPoint> contacts = {};
 };
 
-/// Everything that a picture shows.
+/// The content of a picture.
 struct PictureState {
-    Camera camera = {};  ///< its size and colour count for nothing here
-    double time = 0;     ///< s, which places the colliders
+    Camera camera = {};  ///< its size and colours are ignored
+    double time = 0;     ///< s, which determines the colliders
     OverlaySet overlays = {};
     const ValueScale* scale = nullptr;  ///< of the colours; null: strains up to 10 %
     std::span<const ClothFrame> frames = {};
-    std::span<const ClothExtras> extras = {};  ///< for each cloth, or none at all
-    float blend = 1;                           ///< 0: the state before, 1: that of `frames`
+    std::span<const ClothExtras> extras = {};  ///< per cloth, or empty
+    float blend = 1;                           ///< 0: the previous state, 1: that of `frames`
 };
 
 namespace vulkan {
 
 class SceneDrawing {
 public:
-    /// Uploads what does not change. Up to `slots` pictures may be on their way at a time.
+    /// Uploads the fixed data. Up to `slots` pictures may be in flight.
     SceneDrawing(std::shared_ptr<const PictureKit> kit, const Scene& scene,
                  std::span<const ClothTopology> topologies, unsigned slots = 1);
 
-    /// Uploads the springs of a cloth, for the overlays that show them; without, strains are 0.
+    /// Uploads the springs of a cloth, for overlays that show springs; without it, strains are 0.
     void set_springs(std::size_t cloth, std::span<const DrawnSpring> springs);
     bool has_springs() const { return !cloths_.empty() && cloths_.front().lines.size > 0; }
 
-    /// Takes the state that the next picture of a slot shows, one entry of its frames for each topology. The
-    /// commands of the slot's last picture must have run: what they read is written here. Throws
-    /// Error(bad_usage) for frames of another size.
+    /// Sets the state for the next picture in a slot, one entry of `frames` per topology. Overwrites the
+    /// buffers of the slot's last picture, whose commands must have completed. Throws Error(bad_usage) for
+    /// frames of another size.
     void prepare(const PictureState& state, vk::Extent2D size, unsigned slot = 0);
-    /// Where the picture that was prepared, without its overlays, differs from one of the empty stage. None
-    /// where that is not known: positions on the device are not looked at.
+    /// The area in which the prepared picture, without overlays, differs from the empty stage. Empty if
+    /// unknown: positions on the device are not read.
     std::optional<PixelArea> touched(const PictureState& state, vk::Extent2D size, unsigned slot = 0) const;
-    /// Records the picture that was prepared: shadows and the picture itself. The render pass of the picture
-    /// is left open, so that more can be drawn over it; `end` closes it.
+    /// Records the prepared picture with its shadows. Leaves the render pass of the picture open, so that
+    /// more can be drawn on top; `end` closes it.
     void begin(const vk::raii::CommandBuffer& commands, const PictureTarget& target, unsigned slot = 0) const;
     void end(const vk::raii::CommandBuffer& commands) const { commands.endRenderPass(); }
 
 private:
-    /// What a picture on its way reads of a cloth, so that the next one must not write it.
+    /// Buffers of a cloth that a picture in flight reads, so the next picture needs others.
     struct ClothSlot {
         Buffer positions, before;     // only for host frames, made with the first of them
-        Buffer values, held, points;  // only for overlays, made when one is there
+        Buffer values, held, points;  // only for overlays, made with the first of them
         std::uint32_t point_count = 0, stride = 0;
         bool has_values = false, has_held = false;
         vk::raii::DescriptorSet drawn_set{nullptr}, surface_set{nullptr};
@@ -110,7 +110,7 @@ private:
     struct ClothDrawing {
         std::uint32_t node_count = 0, rows = 0, columns = 0, index_count = 0, line_count = 0, edge_count = 0;
         Buffer indices, pattern, ring, lines, neighbours, edges;
-        Buffer positions, normals, strains;  // as seen; shaders/cloth_surface.comp makes them
+        Buffer positions, normals, strains;  // visible state, computed by shaders/cloth_surface.comp
         std::vector<ClothSlot> slots;
     };
     struct Slot {
@@ -148,7 +148,7 @@ private:
     std::vector<Collider> colliders_;
     Stage stage_;
     vk::raii::DescriptorPool pool_{nullptr};
-    Buffer nothing_;  // bound where a cloth has nothing to show
+    Buffer nothing_;  // bound in place of a cloth's missing buffers
     std::vector<Slot> slots_;
     std::vector<ClothDrawing> cloths_;
 };

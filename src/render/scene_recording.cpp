@@ -1,4 +1,4 @@
-// The commands of a picture.
+// Records the commands of a picture.
 #include <algorithm>
 
 #include "render/scene_drawing.hpp"
@@ -6,14 +6,15 @@
 namespace pliant::vulkan {
 namespace {
 
-constexpr vk::Extent2D legend_least{400, 240};  // pixels; in smaller pictures it would hide the cloth
+constexpr vk::Extent2D legend_least{400, 240};  // pixels; in smaller pictures the legend would cover the
+                                                // cloth
 
-/// As shaders/cloth_surface.comp.
+/// As in shaders/cloth_surface.comp.
 struct SurfaceStyle {
     std::uint32_t node_count, rows, columns, stride, strain;
 };
 
-/// As shaders/line.vert.
+/// As in shaders/line.vert.
 enum class LineKind : std::uint32_t { springs, held, normals, edges };
 struct LineStyle {
     LineKind kind = LineKind::springs;
@@ -21,8 +22,8 @@ struct LineStyle {
     std::uint32_t count = 0;
 };
 
-/// A part of a picture with all of the surfaces that it is made from: shaders/drawn.frag looks two pixels
-/// away.
+/// A part of a picture plus the neighbouring pixels of surfaces that shaders/drawn.frag reads, up to two
+/// pixels away.
 vk::Rect2D grown(const vk::Rect2D& part, vk::Extent2D size)
 {
     constexpr std::int32_t reach = 2;  // pixels
@@ -49,8 +50,8 @@ void SceneDrawing::begin(const vk::raii::CommandBuffer& commands, const PictureT
 
 void SceneDrawing::record_surfaces(const vk::raii::CommandBuffer& commands, unsigned slot) const
 {
-    // What computed or copied the nodes has been submitted before; here it becomes visible. And the last
-    // picture may still be drawn from what is written now.
+    // Makes the nodes visible that earlier submissions computed or copied. The last picture may also still be
+    // reading what is written now.
     using Stage = vk::PipelineStageFlagBits;
     using Access = vk::AccessFlagBits;
     barrier(commands, Stage::eComputeShader | Stage::eTransfer | Stage::eVertexShader,
@@ -96,7 +97,7 @@ void SceneDrawing::record_shadows(const vk::raii::CommandBuffer& commands, unsig
 void SceneDrawing::record_picture(const vk::raii::CommandBuffer& commands, const PictureTarget& target,
                                   unsigned slot) const
 {
-    // Attachments: colours (covered by the backdrop, not cleared), depth.
+    // Attachments: colours (the backdrop covers them, so they are not cleared), depth.
     const std::array<vk::ClearValue, 2> clear{vk::ClearColorValue{}, vk::ClearDepthStencilValue(1.0f, 0)};
     const vk::Rect2D area = grown(target.part, target.size);
     commands.beginRenderPass(vk::RenderPassBeginInfo(target.passes.surfaces, target.surfaces, area, clear),
@@ -104,7 +105,7 @@ void SceneDrawing::record_picture(const vk::raii::CommandBuffer& commands, const
     commands.setViewport(0, vk::Viewport(0, 0, static_cast<float>(target.size.width),
                                          static_cast<float>(target.size.height), 0, 1));
     commands.setScissor(0, area);
-    // From the front to the back, so that what is hidden costs no shading.
+    // Front to back, so that hidden surfaces need no shading.
     bind(commands, Drawn::cloth);
     draw_cloths(commands, slot);
     bind(commands, Drawn::shape);

@@ -13,7 +13,7 @@ vk::raii::RenderPass make_pass(const Device& device)
     const vk::AttachmentReference reference(0, Layout::eDepthStencilAttachmentOptimal);
     const vk::SubpassDescription subpass({}, vk::PipelineBindPoint::eGraphics, 0, nullptr, 0, nullptr,
                                          nullptr, &reference);
-    // Before: the last frame has stopped sampling. After: fragments may sample.
+    // Before: the last frame has finished sampling. After: fragments may sample.
     using Stage = vk::PipelineStageFlagBits;
     using Access = vk::AccessFlagBits;
     const auto tests = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
@@ -25,7 +25,7 @@ vk::raii::RenderPass make_pass(const Device& device)
     return {device.handle(), vk::RenderPassCreateInfo({}, depth, subpass, dependencies)};
 }
 
-/// Compares with up to four texels at once where the device can. Beyond the map everything is lit.
+/// Compares up to four texels at once if the device can. Everything outside the map is lit.
 vk::raii::Sampler make_sampler(const Device& device)
 {
     const bool linear =

@@ -1,4 +1,4 @@
-// What the sun sees: a depth image and the pass that draws it.
+// The shadow map: a depth image from the sun, and its render pass.
 #pragma once
 
 #include "render/device_image.hpp"
@@ -13,10 +13,10 @@ public:
     explicit ShadowMap(const Device& device);
 
     vk::RenderPass pass() const { return *pass_; }
-    /// What shaders sample, with comparison.
+    /// For sampling with comparison.
     vk::DescriptorImageInfo descriptor() const;
 
-    /// Between the two, draw what casts shadows.
+    /// Draw the shadow casters between `begin` and `end`.
     void begin(const vk::raii::CommandBuffer& commands) const;
     void end(const vk::raii::CommandBuffer& commands) const;
 

@@ -10,7 +10,7 @@
 namespace pliant {
 namespace {
 
-// Fine enough that the outline of a sphere half a picture high is off by a quarter of a pixel.
+// Fine enough that the outline of a sphere half as high as the picture is off by a quarter of a pixel.
 constexpr std::uint32_t meridians = 64, rings_per_half = 16;
 constexpr double board_edge = 3.0, board_thickness = 0.02;  // m, of a plane that is not the ground
 
@@ -28,7 +28,7 @@ std::uint32_t add_vertex(ShapeMeshes& meshes, Vec3d position, float half, Vec3d 
 
 void add_round(ShapeMeshes& meshes)
 {
-    // Rows from pole to pole, with the equator twice: between the two lies the wall of a capsule.
+    // Rows from pole to pole, with the equator twice: the wall of a capsule is between the two.
     std::uint32_t above = 0;
     for (std::uint32_t row = 0; row <= 2 * rings_per_half + 1; ++row) {
         const bool upper = row <= rings_per_half;
@@ -59,14 +59,15 @@ void add_cube(ShapeMeshes& meshes)
         }
 }
 
-/// The edges of triangles between places, of which a mesh has a vertex for each normal and each end of a
-/// seam.
+/// Edges between positions. A mesh has several vertices at one position: one for each normal, and for each
+/// end of a seam.
 std::vector<SurfaceEdge> edges_between_places(const ShapeMeshes& meshes, std::size_t first_index)
 {
     std::map<std::array<float, 4>, std::uint32_t> places;
     const auto place_of = [&](std::uint32_t vertex) {
         const auto& [at, half, normal] = meshes.vertices[vertex];
-        const auto rounded = [](float x) { return std::round(x * 1e5f) + 0.0f; };  // and no negative zero
+        const auto rounded = [](float x) { return std::round(x * 1e5f) + 0.0f; };  // the sum avoids negative
+                                                                                   // zeros
         return places.try_emplace({rounded(at[0]), rounded(at[1]), rounded(at[2]), half}, vertex)
             .first->second;
     };
@@ -74,7 +75,8 @@ std::vector<SurfaceEdge> edges_between_places(const ShapeMeshes& meshes, std::si
     for (std::size_t i = first_index; i < meshes.indices.size(); i += 3) {
         const Triangle t{place_of(meshes.indices[i]), place_of(meshes.indices[i + 1]),
                          place_of(meshes.indices[i + 2])};
-        if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles.push_back(t);  // not those at the poles
+        if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0])
+            triangles.push_back(t);  // not the degenerate ones at the poles
     }
     return edges_of(triangles);
 }
@@ -107,7 +109,7 @@ ShapePlacement placement_of(const PlacedCollider& collider, double inset)
     const auto drawn_radius = [&](double radius) { return radius - std::min(inset, 0.05 * radius); };
     const double radius = drawn_radius(collider.radius);
     const bool is_plane = collider.is<Plane>();
-    // A sphere's turning cannot be seen.
+    // A sphere's rotation is invisible.
     const Rotation axes = collider.is<Sphere>() ? PlacedCollider{}.axes : collider.axes;
     Vec3d scale{1, 1, 1}, centre = collider.centre;
     double apart = 0;
@@ -138,7 +140,7 @@ ShapePlacement placement_of(const PlacedCollider& collider, double inset)
             is_plane ? board : porcelain};
 }
 
-// As `placed` of shaders/shape.glsl.
+// As `placed` in shaders/shape.glsl.
 Vec3d placed_corner(const ShapePlacement& placement, const ShapeVertex& corner)
 {
     const ShapeEnds& ends = placement.ends;

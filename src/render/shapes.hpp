@@ -1,4 +1,4 @@
-// The meshes that colliders are drawn with, and how one is put in its place.
+// The meshes of colliders, and their placement.
 #pragma once
 
 #include <array>
@@ -13,11 +13,11 @@ namespace pliant {
 /// A corner of a unit mesh; `corner` and `corner_normal` in shaders/shape.glsl.
 struct ShapeVertex {
     std::array<float, 3> position;
-    float half;  ///< -1 or 1: which way stretching moves it along y
+    float half;  ///< -1 or 1: the direction in which elongation moves it along y
     std::array<float, 3> normal;
 };
 
-/// In the last number of an edge: the light changes there, so that it is seen even where it is no outline.
+/// Flag in the last number of an edge: a crease, drawn even where it is no outline.
 constexpr std::uint32_t sharp_edge = 1u << 31;
 
 /// All unit meshes in one vertex and one index list.
@@ -27,14 +27,14 @@ struct ShapeMeshes {
     };
     std::vector<ShapeVertex> vertices;
     std::vector<std::uint32_t> indices;
-    std::vector<SurfaceEdge> edges;  ///< by the first of the vertices at each place; see sharp_edge
+    std::vector<SurfaceEdge> edges;  ///< by the first vertex at each position; see sharp_edge
     Range round;                     ///< sphere of radius 1, cut at the equator: also a capsule
     Range cube;                      ///< [-1, 1]^3
 };
 ShapeMeshes make_shape_meshes();
 
-/// The two halves of a round shape: their radii, and how far the seam between them is turned towards the
-/// upper pole, as the sine of an angle: a cone that touches two spheres of different radii does not touch at
+/// The two halves of a round shape: their radii, and the angle, as a sine, by which the seam between them is
+/// moved towards the upper pole. A cone tangent to two spheres of different radii does not touch them at
 /// their equators.
 struct ShapeEnds {
     float upper = 1, lower = 1, tilt = 0, unused = 0;
@@ -52,24 +52,24 @@ struct ShapePlacement {
 struct GroundPlacement {
     std::array<float, 4> place;
     float spacing;   ///< m between grid lines
-    float strength;  ///< 1 for a collider, less for a floor that only catches the shadow
+    float strength;  ///< 1 for a collider, less for a floor that only receives the shadow
 };
 
-/// What to draw for a collider. Round shapes are drawn smaller by `inset` (m) because the flat triangles of a
-/// cloth that lies on them cut their corners.
+/// How to draw a collider. Round shapes are drawn smaller by `inset` (m), since the flat triangles of a cloth
+/// on them cut through the arcs.
 ShapePlacement placement_of(const PlacedCollider& collider, double inset);
 ShapeMeshes::Range mesh_of(const PlacedCollider& collider, const ShapeMeshes& meshes);
-/// m: where a corner of its mesh is drawn.
+/// m: where a vertex of its mesh is drawn.
 Vec3d placed_corner(const ShapePlacement& placement, const ShapeVertex& corner);
 
 struct Ball {
     Vec3d centre;       ///< m
     double radius = 0;  ///< m
 };
-/// Two balls whose hull encloses a collider; of a plane they say nothing.
+/// Two balls whose convex hull encloses a collider; undefined for a plane.
 std::array<Ball, 2> balls_around(const PlacedCollider& collider);
 
-/// A horizontal plane that faces upwards is the ground.
+/// Whether it is a horizontal plane that faces up.
 bool is_ground(const PlacedCollider& collider);
 
 }  // namespace pliant

@@ -9,9 +9,9 @@ namespace {
 
 constexpr double radians_per_degree = std::numbers::pi / 180;
 constexpr double sun_height = 52, sun_side = 48;  // degrees above the floor, and to the left of the camera
-constexpr double cloth_reach = 1.6;  // how far a cloth gets from where it starts, in its own radii
+constexpr double cloth_reach = 1.6;               // how far a cloth moves from its start, in its own radii
 
-/// Around a cloth at rest.
+/// The bounding ball of a cloth at rest.
 Ball ball_around(const Cloth& cloth)
 {
     Bounds local;
@@ -49,7 +49,7 @@ void include_collider(Bounds& bounds, const PlacedCollider& placed)
     for (const Ball& ball : balls_around(placed)) bounds.include(ball.centre, ball.radius);
 }
 
-/// Everywhere a collider comes, at its keyframes and half-way between.
+/// Includes a collider at its keyframes and half-way between.
 void include_journey(Bounds& bounds, const Collider& collider)
 {
     const auto& keyframes = std::visit(
@@ -62,7 +62,7 @@ void include_journey(Bounds& bounds, const Collider& collider)
     }
 }
 
-/// From above, and from the left of the camera, whichever way it looks: shapes get a light and a dark side.
+/// From above and the left of the camera, so that shapes have a light and a dark side.
 Vec3d light_direction(const Camera& camera)
 {
     const Vec3d back = camera.position - camera.target;
@@ -83,8 +83,8 @@ void aim_light(Stage& stage, const Bounds& room)
     }
     const Vec3d middle = (box.min + box.max) * 0.5, half = (box.max - box.min) * 0.5;
     const double edge =
-        1.02 * std::max({half.x, half.y, 1e-3});  // square texels: the blur is the same both ways
-    // Depth reaches further than the room, for cloth that flies higher than expected.
+        1.02 * std::max({half.x, half.y, 1e-3});  // square texels: equal blur in both directions
+    // Depth extends beyond the room, for cloth that flies higher than expected.
     const double depth = half.z + edge;
     stage.shadow_extent = 2 * edge;
     stage.shadow_from_world =
@@ -114,7 +114,7 @@ Stage make_stage(const Scene& scene)
     stage.view_distance = std::max(length(scene.camera.position - scene.camera.target), 1e-2);
     stage.to_light = light_direction(scene.camera);
 
-    Bounds things, room;  // where things are at the start, and where they may come
+    Bounds things, room;  // bounds of the objects at the start, and of their expected motion
     double cell = 0, ground = -1e30;
     for (std::size_t i = 0; i < scene.cloth_count(); ++i) {
         const Ball ball = ball_around(scene.cloth(i));
@@ -134,19 +134,19 @@ Stage make_stage(const Scene& scene)
     room.include(things.min);
     room.include(things.max);
     const double floor = ground > -1e30 ? ground : stage.floor_height;
-    if (ground > -1e30 || !stage.has_plane) {  // from the floor upwards
+    if (ground > -1e30 || !stage.has_plane) {  // from the floor up
         room.include({stage.centre.x, floor, stage.centre.z});
         room.min.y = floor;
     }
 
-    // What lies far outside the picture would only cost the shadows their sharpness.
+    // Objects far outside the picture would only reduce the resolution of shadows.
     Bounds seen;
     seen.include(stage.centre, 2 * stage.view_distance);
     room.clip(seen);
     if (room.min.x >= room.max.x || room.min.y > room.max.y || room.min.z >= room.max.z) room = seen;
     aim_light(stage, room);
 
-    // The middle of a chord of length c lies c^2 / (8 r) below the arc; placement_of limits it for small
+    // The middle of a chord of length c is c^2 / (8 r) below the arc; placement_of limits this for small
     // radii.
     double least_radius = 1e30;
     for (const Collider& collider : scene.colliders)
@@ -159,7 +159,7 @@ Stage make_stage(const Scene& scene)
 GroundPlacement ground_at(const Stage& stage, double height, bool collider)
 {
     const Vec3 centre = to_float(Vec3d{stage.centre.x, height, stage.centre.z});
-    // Decimetres for a scene of metres, and powers of ten of it for others.
+    // 0.1 m for a scene of metres, scaled by powers of ten for others.
     const double spacing = std::pow(10.0, std::floor(std::log10(stage.view_distance)) - 1);
     return {{centre.x, centre.y, centre.z, static_cast<float>(10 * stage.view_distance)},
             static_cast<float>(spacing),

@@ -1,5 +1,4 @@
-// Where a scene plays: the room that cloth and colliders take, the floor under them, the sun above, and the
-// camera.
+// The stage of a scene: the space of cloth and colliders, the floor, the sun, and the camera.
 #pragma once
 
 #include <array>
@@ -10,7 +9,7 @@
 
 namespace pliant {
 
-/// An axis-aligned box, empty until something is put in.
+/// An axis-aligned box, initially empty.
 struct Bounds {
     Vec3d min{1e30, 1e30, 1e30}, max{-1e30, -1e30, -1e30};  ///< m
 
@@ -19,20 +18,20 @@ struct Bounds {
     void clip(const Bounds& other);
 };
 
-/// Fixed for the whole run, so that light and shadow do not swim when something moves.
+/// Fixed for the whole run, so that light and shadows do not shimmer.
 struct Stage {
     Vec3d to_light;             ///< unit length
     Matrix4 shadow_from_world;  ///< xy onto [0, 1] of the shadow map, z its depth
     double shadow_extent = 1;   ///< m, edge of the square that the shadow map covers
-    double floor_height = 0;    ///< m, of the floor that is drawn when the scene has no plane
-    bool has_plane = false;     ///< then that floor is not drawn
-    Vec3d centre;               ///< m, what the camera looks at
+    double floor_height = 0;    ///< m, of the floor that is drawn if the scene has no plane
+    bool has_plane = false;     ///< if so, that floor is not drawn
+    Vec3d centre;               ///< m, target of the camera
     double view_distance = 1;   ///< m, from the camera to it
     double inset = 0;           ///< m, see placement_of
 };
 Stage make_stage(const Scene& scene);
 
-/// The floor at a height, around what the camera looks at.
+/// A floor at a height, centred at the camera's target.
 GroundPlacement ground_at(const Stage& stage, double height, bool collider);
 
 /// `Frame` in shaders/frame.glsl, in the layout std140.
@@ -48,7 +47,7 @@ struct FrameUniforms {
     std::uint32_t colours;
     float padding[3];
 };
-/// Camera, light and size; the rest says: a checker, and the last state alone.
+/// Camera, light and size; defaults for the rest: checker, and the current state only.
 FrameUniforms frame_uniforms(const Stage& stage, const Camera& camera, std::uint32_t width,
                              std::uint32_t height, std::uint32_t shadow_map_size);
 

@@ -1,4 +1,4 @@
-// The edges between triangles: where a picture looks for the outlines of a surface.
+// The edges between triangles, from which outlines of a surface are found.
 #pragma once
 
 #include <array>
@@ -11,13 +11,13 @@
 
 namespace pliant {
 
-/// An edge: its ends, and the third corner of the triangle on either side; `edges` in
+/// An edge: its two ends, and the third corner of the triangle on either side; `edges` in
 /// shaders/cloth_nodes.glsl.
 using SurfaceEdge = std::array<std::uint32_t, 4>;
-constexpr std::uint32_t no_corner = ~0u;  ///< instead of the last one, at a border
+constexpr std::uint32_t no_corner = ~0u;  ///< in place of the last one, at a border
 
-/// Each edge once, seen from its first triangle, whose corners are its ends and the third in their order.
-/// Where more than two triangles meet, those beyond are taken for borders.
+/// Each edge once, oriented as in its first triangle (first end, second end, third corner). If more than two
+/// triangles meet, the others count as borders.
 std::vector<SurfaceEdge> edges_of(std::span<const Triangle> triangles);
 
 }  // namespace pliant

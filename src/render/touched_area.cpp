@@ -7,7 +7,7 @@
 namespace pliant {
 namespace {
 
-/// Along the sun's rays onto a floor.
+/// Projects along the sun's rays onto a floor.
 Matrix4 shadow_on_floor(Vec3d to_light, double height)
 {
     const double x = to_light.x / to_light.y, z = to_light.z / to_light.y;
@@ -30,7 +30,7 @@ TouchedArea::TouchedArea(const Stage& stage, const Camera& camera, std::uint32_t
     : width_(width), height_(height), inset_(stage.inset), nearest_(0.05 * stage.view_distance)
 {
     const double half_angle = camera.field_of_view * std::numbers::pi / 360;
-    // Surfaces are lifted by 2.5 texels, the filter spreads over 2.6 around, and a floor is lit aslant.
+    // Surfaces are offset by 2.5 texels, the filter extends by 2.6, and floors are lit at an angle.
     constexpr double spread = 8;  // texels
     blur_ = spread * shadow_texel / stage.to_light.y * height_ / (2 * std::tan(half_angle));
     const Matrix4 view = clip_from_world(camera, width_ / height_);
@@ -63,7 +63,7 @@ void TouchedArea::include(Vec3d point)
 {
     for (const Matrix4& view : views_) {
         const auto at = view * std::array<double, 4>{point.x, point.y, point.z, 1};
-        if (!(at[3] > nearest_)) {  // nor where it is not a number
+        if (!(at[3] > nearest_)) {  // also for NaN
             unknown_ = true;
             return;
         }
@@ -78,7 +78,7 @@ void TouchedArea::include(Vec3d point)
 std::optional<PixelArea> TouchedArea::area() const
 {
     if (unknown_) return std::nullopt;
-    // Whole blocks of pixels, as rasterisers shade them.
+    // Whole blocks of pixels, the granularity of rasterisers.
     constexpr double block = 16;
     const auto inside = [](double at, double most) {
         return static_cast<std::uint32_t>(std::clamp(at, 0.0, most));

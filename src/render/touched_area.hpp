@@ -1,4 +1,4 @@
-// Where a picture can differ from one of the empty stage: around cloths, colliders and their shadows.
+// The area in which a picture can differ from the empty stage: cloths, colliders and their shadows.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace pliant {
 
-/// A rectangle of pixels, with its lower ends and without its upper ones.
+/// A rectangle of pixels; lower bounds inclusive, upper bounds exclusive.
 struct PixelArea {
     std::uint32_t left = 0, top = 0, right = 0, bottom = 0;
 
@@ -19,22 +19,22 @@ struct PixelArea {
     std::uint32_t height() const { return bottom - top; }
     friend bool operator==(const PixelArea&, const PixelArea&) = default;
 };
-/// The smallest that has both.
+/// The smallest area that contains both.
 PixelArea united(const PixelArea& a, const PixelArea& b);
 
-/// Gathers what stands on a stage, as seen by a camera.
+/// Accumulates the projections of objects on a stage.
 class TouchedArea {
 public:
-    /// `colliders` at the time of the picture: the floors among them catch shadows, the others are included,
-    /// as they are drawn with `meshes`.
+    /// `colliders`: at the time of the picture. Floors among them receive shadows; the others are included,
+    /// with their `meshes`.
     TouchedArea(const Stage& stage, const Camera& camera, std::uint32_t width, std::uint32_t height,
                 double shadow_texel, std::span<const PlacedCollider> colliders, const ShapeMeshes& meshes);
 
-    /// The corners of triangles, m.
+    /// Adds corners of triangles, m.
     void include(std::span<const Vec3> points);
 
-    /// None where that cannot be told: something reaches behind the camera, is not finite, or is a floor that
-    /// moves.
+    /// Empty if it cannot be determined: an object extends behind the camera, is not finite, or is a moving
+    /// floor.
     std::optional<PixelArea> area() const;
 
 private:
@@ -43,9 +43,9 @@ private:
 
     double width_, height_;       // pixels
     double inset_;                // m
-    double nearest_;              // m, before the camera: what is nearer cannot be told
-    double blur_;                 // pixels at 1 m, how far the edge of a shadow may reach
-    std::vector<Matrix4> views_;  // of the thing itself, and of its shadow on each floor
+    double nearest_;              // m in front of the camera: anything nearer cannot be bounded
+    double blur_;                 // pixels at 1 m, the blur of a shadow's edge
+    std::vector<Matrix4> views_;  // of the object itself, and of its shadow on each floor
     double left_ = 1e30, top_ = 1e30, right_ = -1e30, bottom_ = -1e30;  // pixels
     bool unknown_ = false;
 };

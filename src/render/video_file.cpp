@@ -22,7 +22,7 @@ namespace {
     throw Error(ErrorKind::bad_input, "cannot write '" + file.string() + "': " + reason);
 }
 
-/// Where the file goes, with a symbolic link followed. Says what is wrong with the name or the folder.
+/// The target, with symbolic links resolved. Throws if the name or the folder is unusable.
 std::filesystem::path checked_target(const std::filesystem::path& file)
 {
     const AtomicFile probe(file);
@@ -30,8 +30,7 @@ std::filesystem::path checked_target(const std::filesystem::path& file)
     return std::filesystem::is_symlink(file, ignored) ? std::filesystem::weakly_canonical(file) : file;
 }
 
-/// A name beside the file that is taken by no one. The encoder must be able to seek in it: a stream will not
-/// do.
+/// An unused name beside the file. The encoder must be able to seek, so a stream is not enough.
 std::filesystem::path partial_name(const std::filesystem::path& file)
 {
     static std::atomic<unsigned> count{0};
@@ -39,7 +38,7 @@ std::filesystem::path partial_name(const std::filesystem::path& file)
            (".pliant-" + std::to_string(::getpid()) + "-" + std::to_string(count++) + ".part");
 }
 
-/// Shortest text that reads back as the same number, whatever the locale.
+/// The shortest text that reads back as the same number, in any locale.
 std::string text_of(double number)
 {
     char digits[32];
@@ -54,7 +53,7 @@ std::vector<std::string> command(const std::filesystem::path& to, std::uint32_t 
     return {"ffmpeg", "-nostdin", "-loglevel", "error", "-y", "-f", "rawvideo", "-pixel_format", "rgba",
             "-framerate", text_of(frame_rate), "-video_size",
             std::to_string(even(width)) + "x" + std::to_string(even(height)), "-i", "pipe:0",
-            // HD colours, and said so in the file: players otherwise guess by the size.
+            // Declares HD colours in the file: players otherwise guess by the size.
             "-vf", "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p", "-colorspace", "bt709",
             "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range", "tv", "-c:v", "libx264",
             "-preset", "veryfast", "-crf", "18", "-movflags", "+faststart", "-f", "mp4",
@@ -81,7 +80,7 @@ public:
         try {
             finish();
         } catch (const std::exception&) {
-            // No one is left to tell. Nothing half-written stays.
+            // A destructor cannot report errors. The incomplete file is removed.
         }
     }
 
@@ -114,11 +113,11 @@ public:
         std::filesystem::rename(partial_, target_, error);
         if (!error) return;
         ::unlink(partial_.c_str());
-        fail(file_, "the finished file could not be given its name (" + error.message() + ")");
+        fail(file_, "the finished file could not be renamed to it (" + error.message() + ")");
     }
 
 private:
-    /// The last column and row once more where the size is odd.
+    /// Repeats the last column and row if the size is odd.
     const std::vector<std::uint8_t>& pad(const Image& image)
     {
         const std::size_t row_bytes = std::size_t{4} * width_, padded_bytes = std::size_t{4} * even(width_);
@@ -138,7 +137,7 @@ private:
         ::unlink(partial_.c_str());
     }
 
-    std::filesystem::path file_;  // as the caller named it, for messages
+    std::filesystem::path file_;  // as given by the caller, for messages
     std::filesystem::path target_, partial_;
     std::uint32_t width_, height_;
     std::uint64_t frames_ = 0;

@@ -1,4 +1,4 @@
-// Pictures as a video: H.264 in MP4, encoded by the program ffmpeg.
+// Video files: H.264 in MP4, encoded by the program ffmpeg.
 #pragma once
 
 #include <cstdint>
@@ -9,20 +9,20 @@
 
 namespace pliant {
 
-/// The file appears under its name when it is complete. What was added is worth keeping: destroyed without
-/// `finish`, by an exception for one, it still becomes a playable file. Without any picture there is no file.
+/// The file appears under its name when it is complete. If it is destroyed without `finish`, for example by
+/// an exception, it still becomes a playable file. Without any picture there is no file.
 class VideoFile {
 public:
-    /// Throws Error(bad_input) when ffmpeg is not installed or the file cannot be created. Odd sizes grow by
-    /// one pixel, which the format asks for.
+    /// Throws Error(bad_input) if ffmpeg is not installed or the file cannot be created. The format needs
+    /// even sizes, so odd sizes grow by one pixel.
     VideoFile(const std::filesystem::path& file, std::uint32_t width, std::uint32_t height,
               double frame_rate);
     ~VideoFile();
     VideoFile(const VideoFile&) = delete;
     VideoFile& operator=(const VideoFile&) = delete;
 
-    /// Throws Error(bad_usage) for a picture of another size, Error(bad_input) with ffmpeg's own words when
-    /// it gave up.
+    /// Throws Error(bad_usage) for a picture of another size, Error(bad_input) with ffmpeg's own message if
+    /// it has failed.
     void add(const Image& image);
     /// Waits for the encoder. Throws as `add` does.
     void finish();

@@ -8,7 +8,7 @@
 namespace pliant::vulkan {
 namespace {
 
-/// An 8 bit sRGB format: the shaders write linear light.
+/// An 8-bit sRGB format: the shaders write linear values.
 vk::SurfaceFormatKHR surface_format(const Device& device, vk::SurfaceKHR surface)
 {
     if (!device.physical().getSurfaceSupportKHR(device.queue_family(), surface))
@@ -71,7 +71,7 @@ void WindowTarget::resize(const Device& device, vk::Extent2D wanted)
     info.compositeAlpha = can.supportedCompositeAlpha & vk::CompositeAlphaFlagBitsKHR::eOpaque
                               ? vk::CompositeAlphaFlagBitsKHR::eOpaque
                               : vk::CompositeAlphaFlagBitsKHR::eInherit;
-    info.presentMode = vk::PresentModeKHR::eFifo;  // there is always this one
+    info.presentMode = vk::PresentModeKHR::eFifo;  // the one mode that always exists
     info.clipped = VK_TRUE;
     info.oldSwapchain = *swapchain_;
     swapchain_ = vk::raii::SwapchainKHR(device.handle(), info);
@@ -93,7 +93,7 @@ std::optional<std::uint32_t> WindowTarget::acquire(vk::Semaphore free) const
     if (!has_images()) return std::nullopt;
     try {
         const auto [result, image] = swapchain_.acquireNextImage(UINT64_MAX, free);
-        return image;  // "suboptimal" still shows it
+        return image;  // "suboptimal" is still presented
     } catch (const vk::OutOfDateKHRError&) {
         return std::nullopt;
     }

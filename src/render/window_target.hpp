@@ -1,4 +1,4 @@
-// Pictures that are seen: the images of a window's swapchain.
+// Pictures in a window: the images of its swapchain.
 #pragma once
 
 #include <optional>
@@ -12,18 +12,18 @@ namespace pliant::vulkan {
 
 class WindowTarget {
 public:
-    /// Of a surface that must outlive it. Has no images before `resize`. Throws Error(device_failure) when
-    /// the device cannot draw to the surface.
+    /// `surface` must outlive it. Has no images before `resize`. Throws Error(device_failure) if the device
+    /// cannot draw to the surface.
     WindowTarget(const Device& device, vk::SurfaceKHR surface);
 
     PicturePassHandles passes() const { return passes_.handles(); }
 
-    /// Makes images of the surface's size, or of this one where the surface leaves it open. No picture may be
-    /// on its way. Without an area (a minimised window) there are no images.
+    /// Creates images of the surface's size, or of `wanted` if the surface leaves the size open. No picture
+    /// may be in flight. A minimised window has no images.
     void resize(const Device& device, vk::Extent2D wanted);
-    /// Gives the images back; to be called before the surface goes.
+    /// Destroys the images; call it before the surface is destroyed.
     void clear();
-    /// When the surface is lost: `renew` lets it go and returns another of the same window.
+    /// After the surface is lost: `renew` destroys it and returns a new one of the same window.
     template <class Renew>
     void replace_surface(Renew&& renew)
     {
@@ -33,19 +33,19 @@ public:
     bool has_images() const { return !images_.empty(); }
     vk::Extent2D size() const { return size_; }
 
-    /// The next image to draw to, free when `free` is signalled; nothing when the images fit the surface no
-    /// more.
+    /// The next image to draw to, which is free once `free` is signalled; empty if the images no longer match
+    /// the surface.
     std::optional<std::uint32_t> acquire(vk::Semaphore free) const;
-    /// Signalled by the commands that draw an image, waited for by `present`.
+    /// Signalled by the drawing commands of an image; `present` waits for it.
     vk::Semaphore drawn(std::uint32_t image) const { return *images_[image].drawn; }
-    /// False when the images fit the surface no more.
+    /// False if the images no longer match the surface.
     bool present(const Device& device, std::uint32_t image) const;
 
     PictureTarget target(std::uint32_t image) const { return buffers_->target(*images_[image].framebuffer); }
-    /// Behind the drawing, in the same commands: the picture on its way to the host. False when the surface
-    /// does not allow it.
+    /// Records, after the drawing commands, a copy of the picture to the host. False if the surface does not
+    /// support it.
     bool record_copy(const Device& device, const vk::raii::CommandBuffer& commands, std::uint32_t image);
-    /// When those have run.
+    /// Call it after those commands have run.
     void read(Image& into) const;
 
 private:

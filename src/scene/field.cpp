@@ -47,7 +47,7 @@ std::string number_text(double value)
     if (exponent == std::string::npos) return text;
     if (text[exponent + 1] == '+') text.erase(exponent + 1, 1);
     const auto digits = text.find_first_of("0123456789", exponent);
-    if (digits != std::string::npos && text[digits] == '0') text.erase(digits, 1);  // e09 reads better as e9
+    if (digits != std::string::npos && text[digits] == '0') text.erase(digits, 1);  // writes e09 as e9
     return text;
 }
 
@@ -64,7 +64,7 @@ std::string printable(std::string_view text)
     std::string line;
     for (const char c : text) {
         const auto byte = static_cast<unsigned char>(c);
-        const bool continues = (byte & 0xC0U) == 0x80U;  // inside a UTF-8 character: no place to cut
+        const bool continues = (byte & 0xC0U) == 0x80U;  // inside a UTF-8 character, which must not be cut
         if (line.size() >= longest && !continues) return line + "...";
         line += byte < 0x20U || byte == 0x7FU ? '?' : c;
     }
@@ -80,8 +80,8 @@ std::string joined(Names names)
 
 namespace {
 
-/// Insertions, deletions, replacements and swaps of neighbours that turn one word into the other (optimal
-/// string alignment, row by row).
+/// The number of insertions, deletions, replacements and swaps of neighbours that turn one word into the
+/// other (optimal string alignment, row by row).
 std::size_t edit_distance(std::string_view a, std::string_view b)
 {
     std::vector<std::size_t> before_last, last(b.size() + 1), row(b.size() + 1);
@@ -104,7 +104,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b)
 
 const char* nearest(std::string_view word, Names names)
 {
-    constexpr std::size_t longest = 64;  // no name is that long, and the distance takes quadratic time
+    constexpr std::size_t longest = 64;  // longer than any name; the distance takes quadratic time
     if (word.size() > longest) return nullptr;
     const char* best = nullptr;
     std::size_t best_distance = std::max<std::size_t>(1, word.size() / 3) + 1;

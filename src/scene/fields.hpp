@@ -1,16 +1,16 @@
 // Every field of a scene, once: its key in a file, its place in the Scene, its range and its unit.
 //
-// `fields(at, thing)` shows the fields of a thing to a visitor: the ObjectReader fills them from JSON, the
-// Checker of validation.cpp looks at their values, a test compares them with scenes/scene.schema.json. What a
-// visitor offers:
+// `fields(at, thing)` passes the fields of an object to a visitor: the ObjectReader fills them from JSON, the
+// Checker of validation.cpp checks their values, a test compares them with scenes/scene.schema.json. A
+// visitor provides:
 //
 //   number, vector, choice, flag, name, text    one value
-//   nested(key, inside)                   an object; `inside` shows its fields to the visitor of that object
-//   object(key, thing)                    the same for a thing that has `fields`
+//   nested(key, inside)                   an object; `inside` passes its fields to the visitor of that object
+//   object(key, thing)                    the same for an object that has `fields`
 //   list(key, things)                     an array of such objects
 //   one_of(variant, keys, with)           exactly one of the keys, which names the alternative
-//   and what a file says in another way than a Scene: format_version, step_length, mesh_file, body_shape,
-//   material, cloths, bodies, checks
+//   and fields whose form in a file differs from the Scene: format_version, step_length, mesh_file,
+//   body_shape, material, cloths, bodies, checks
 #pragma once
 
 #include <array>
@@ -53,7 +53,7 @@ inline constexpr std::array body_shape_keys{"mesh", "icosphere", "uv_sphere", "t
                                             "box",  "capsule",   "blob"};
 inline constexpr std::array pin_keys{"index", "corner", "edge", "box"};
 inline constexpr std::array collider_keys{"sphere", "plane", "box", "capsule", "tapered_capsule"};
-/// Numbers of the summary that a scene may check.
+/// Numbers of the summary that a scene's check may use.
 inline constexpr std::array check_names{"max_stretch",
                                         "max_stretch_peak",
                                         "mean_stretch",
@@ -82,19 +82,19 @@ inline constexpr std::array check_names{"max_stretch",
                                         "volume_loss_mean",
                                         "volume_ratio_final"};
 
-inline constexpr std::uint32_t max_nodes = 16'777'216;  // 2^24: a node's index is exact in a float, too
+inline constexpr std::uint32_t max_nodes = 16'777'216;  // 2^24: exact in a float
 constexpr auto longest_side = max_nodes / 2;            // of a sheet with two rows
 constexpr std::uint32_t most_rings = 2364;              // of a disc: 1 + 3 rings (rings + 1) nodes
 
-// Beyond these, single precision has nothing sensible to say; they keep every sum and product finite.
+// Beyond these, single precision gives no meaningful result; they keep every sum and product finite.
 inline constexpr Range coordinate{-1e6, 1e6};
 inline constexpr Range extent = above(0, 1e6);
 inline constexpr Range angle{-1e6, 1e6};
 inline constexpr Range fraction{0, 1};
-/// Of a constraint: below 1e-9 m/N single precision cannot tell its force from rounding, above 1 it is none.
+/// Of a constraint: below 1e-9 m/N its force is lost in single-precision rounding; above 1 it has no effect.
 inline constexpr Range compliance{1e-9, 1};
 
-/// A thing of type Type, const or not.
+/// An object of type Type, const or not.
 template <class Thing, class Type>
 concept Is = std::same_as<std::remove_const_t<Thing>, Type>;
 
@@ -103,7 +103,7 @@ void fields(auto& at, Is<TimeOptions> auto& time)
     at.number("duration", time.duration, above(0, 1e6), "s");
     at.number("frame_rate", time.frame_rate, {1, 10'000}, "1/s");
     at.number("substeps", time.substeps, {0, 100'000}, "steps");
-    at.step_length("dt", time);  // in place of frame_rate
+    at.step_length("dt", time);  // an alternative to frame_rate
 }
 
 void fields(auto& at, Is<Air> auto& air)
@@ -197,7 +197,7 @@ void fields(auto& at, Is<Cloth> auto& cloth)
                 inside.number("scale", cloth.scale, extent, "");
         });
     });
-    at.material("material", cloth);  // before what is given beside it, which has the last word
+    at.material("material", cloth);  // first, so that keys beside it override it
     at.number("density", cloth.density, above(0, 1e6), "kg/m2");
     at.number("node_mass", cloth.node_mass, above(0, 1e6), "kg");
     at.vector("position", cloth.position, coordinate, "m");
@@ -210,7 +210,7 @@ void fields(auto& at, Is<Cloth> auto& cloth)
     at.list("pins", cloth.pins);
 }
 
-// Shapes of soft bodies; the generators themselves check that their numbers fit each other.
+// Shapes of soft bodies; the generators check relations between their numbers.
 inline constexpr Range generated_length = above(0, 1e4);
 
 void fields(auto& at, Is<IcosphereOptions> auto& sphere)
@@ -293,7 +293,7 @@ void fields(auto& at, Is<RegionForce> auto& force)
     at.vector("torque", force.torque, {-1e9, 1e9}, "N m");
 }
 
-/// A cloth as a soft body: the same thing, with other keys.
+/// A cloth as a soft body: the same object with other keys.
 void body_fields(auto& at, Is<Cloth> auto& cloth)
 {
     at.name("name", cloth.name);

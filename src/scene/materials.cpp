@@ -1,4 +1,4 @@
-// Pieces of cloth as materials. Each figure, and where it is from, is in docs/scenes.md, "Materials".
+// Materials of cloth. Each figure and its source are in docs/scenes.md, "Materials".
 #include <array>
 
 #include "pliant/scene.hpp"
@@ -25,7 +25,7 @@ Cloth& Cloth::make_of(Material given)
     material = given;
     density = properties.density;
     node_mass.reset();
-    // Edges of a mesh have to do for shear as well, which is what decides how a cloth drapes: a lattice of
+    // The edges of a mesh also provide its shear stiffness, which determines how a cloth drapes: a lattice of
     // equilateral triangles has the shear modulus sqrt(3) / 4 k.
     constexpr double edge_of_shear = 2.309401076758503;  // 4 / sqrt(3)
     const bool sheet = std::holds_alternative<SheetOptions>(shape);

@@ -18,7 +18,7 @@ Cloth Cloth::sheet(const SheetOptions& options)
 {
     Cloth cloth;
     SheetOptions shape = options;
-    cloth.density = std::exchange(shape.density, {});  // from here on the cloth's own is the only one
+    cloth.density = std::exchange(shape.density, {});  // from here on only the cloth's own density is used
     cloth.node_mass = std::exchange(shape.node_mass, {});
     cloth.shape = shape;
     return cloth;

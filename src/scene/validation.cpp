@@ -1,5 +1,4 @@
-// What is allowed in a scene, however it was made: the ranges of fields.hpp, and below them what fields must
-// be to one another.
+// Validates a scene, whatever its origin: the ranges of fields.hpp, then the relations between fields.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -24,7 +23,7 @@ std::uint64_t node_count(const Cloth& cloth)
     return std::get<SurfaceMesh>(cloth.shape).vertices.size();
 }
 
-/// Visits the fields of a scene and throws FieldError for the first that is not allowed.
+/// Visits the fields of a scene and throws FieldError for the first invalid one.
 class Checker {
 public:
     explicit Checker(std::string path) : path_(std::move(path)) {}
@@ -183,7 +182,7 @@ private:
                         number_text(keyframes[i - 1].time) + " s");
     }
 
-    /// Values over time, in order and within their range.
+    /// Values over time: ascending times, values within their range.
     void timed(const char* key, const std::vector<TimedValue>& values, const Range& range,
                const char* unit) const
     {
@@ -287,7 +286,7 @@ private:
                     number_text(acad.activate_at));
     }
 
-    /// A class of springs can be a constraint only where the method has a place for it.
+    /// A class of springs can be a constraint only with a method that supports it.
     void roles(const Springs& springs, Method method, const std::string& cloth) const
     {
         const std::pair<const char*, SpringRole> classes[] = {{"structural", springs.structural.role},
@@ -303,7 +302,7 @@ private:
                     "is constraint, but " + reason + ": use method constraint");
     }
 
-    /// What has numbers of its own for each spring, which not every form of a step can hear.
+    /// Features with parameters for single springs, which not every kind of step supports.
     void graded_springs(const Cloth& cloth, const Scene& scene, const std::string& path) const
     {
         const auto* sheet = std::get_if<SheetOptions>(&cloth.shape);

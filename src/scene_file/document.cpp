@@ -12,8 +12,8 @@
 namespace pliant::scene_format {
 namespace {
 
-/// Follows the parser, knows the path it is at, refuses a key given twice (the parser would keep the last)
-/// and nesting beyond all sense.
+/// A callback of the parser that tracks the current path, and rejects duplicate keys (the parser would keep
+/// the last) and excessive nesting.
 class KeyWatch {
 public:
     explicit KeyWatch(const std::string& source) : source_(source) {}
@@ -73,7 +73,7 @@ private:
     std::vector<Level> levels_;
 };
 
-/// "line 3, column 5: ..." from a position and the parser's own words.
+/// "line 3, column 5: ..." from a position and the parser's message.
 std::string syntax_problem(const std::string& text, const Json::parse_error& error)
 {
     const std::string before = text.substr(0, error.byte - std::min<std::size_t>(error.byte, 1));
@@ -104,7 +104,7 @@ Json parse_document(const std::string& text, const std::string& source)
         return Json::parse(text, std::ref(watch), with_exceptions, with_comments);
     } catch (const Json::parse_error& error) {
         throw Error(ErrorKind::bad_input, source + ": " + syntax_problem(text, error));
-    } catch (const Json::out_of_range&) {  // a number such as 1e999
+    } catch (const Json::out_of_range&) {  // for example 1e999
         throw Error(ErrorKind::bad_input, source + ": " + watch.path() + " is a number beyond 1.8e308");
     }
 }
@@ -127,10 +127,10 @@ std::string wrong_type(const Json& value, const std::string& expected)
 
 namespace {
 
-/// A step down the path of an override: a key of an object or an index into an array.
+/// A step along the path of an override: a key of an object or an index into an array.
 using Step = std::variant<std::string, std::size_t>;
 
-/// "cloths[0].sheet.rows" -> cloths, 0, sheet, rows; nothing when it is not written like that.
+/// "cloths[0].sheet.rows" -> cloths, 0, sheet, rows; empty if it is malformed.
 std::optional<std::vector<Step>> steps_of(std::string_view path)
 {
     std::vector<Step> steps;
@@ -166,7 +166,7 @@ bool is_utf8(const std::string& text)
     throw Error(ErrorKind::bad_usage, "the override " + in_quotes(text) + " " + problem);
 }
 
-/// The part of `place` that a step leads to; null when it is new. An index one past the end appends.
+/// The part of `place` that a step names; null if it is new. An index one past the end appends.
 Json& descend(Json& place, const Step& step, const std::string& place_path, const std::string& text)
 {
     const std::string path = place_path.empty() ? "the scene" : place_path;

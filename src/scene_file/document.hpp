@@ -1,4 +1,4 @@
-// A scene file as a JSON document, before anything is known about its fields.
+// A scene file as a JSON document, before its fields are interpreted.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,13 +9,13 @@ namespace pliant::scene_format {
 
 using Json = nlohmann::json;
 
-/// JSON with comments. Throws Error(bad_input), starting with `source`, for syntax errors (with line and
-/// column), keys given twice and numbers beyond all bounds.
+/// Parses JSON with comments. Throws Error(bad_input), starting with `source`, for syntax errors (with line
+/// and column), duplicate keys and numbers out of range.
 Json parse_document(const std::string& text, const std::string& source);
 
-/// Puts an override "path=value" into the document, making objects on the way; the value null takes the key
-/// away. Returns the path below which it changed or made something. Throws Error(bad_usage) when it is
-/// malformed or leads through something that has no such part.
+/// Applies an override "path=value" to the document, creating objects as needed; the value null removes the
+/// key. Returns the path below which it changed or created something. Throws Error(bad_usage) if it is
+/// malformed or its path does not fit the document.
 std::string apply_override(Json& document, const std::string& text);
 
 /// `is "high", but must be EXPECTED`

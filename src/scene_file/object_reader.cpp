@@ -195,7 +195,7 @@ void ObjectReader::cloths(const char* key, Scene& scene)
     });
 }
 
-/// A mesh from a file, or one that is made here: either way the body has it from now on.
+/// A mesh from a file, or generated here; in either case it is then a mesh of the body.
 void ObjectReader::body_shape(Names keys, Cloth& cloth)
 {
     const std::size_t index = the_only_key(keys);

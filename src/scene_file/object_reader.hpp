@@ -1,5 +1,5 @@
-// Fills the fields of a thing from a JSON object: checks types, remembers the path, refuses what it does not
-// know. Ranges are validated afterwards, on the finished scene; only whole numbers must fit at once.
+// Fills the fields of an object from JSON: checks types, tracks the path, rejects unknown keys. Ranges are
+// validated later, on the complete scene, except that integers must fit their types.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,7 @@ namespace pliant::scene_format {
 
 class ObjectReader {
 public:
-    /// Reads one object: `inside` is called with its reader. `folder` is where relative file names start.
+    /// Reads one object: calls `inside` with its reader. `folder`: base of relative file names.
     template <class Inside>
     static void read(const Json& value, const std::string& path, const std::filesystem::path& folder,
                      Inside inside)
@@ -52,7 +52,7 @@ public:
     {
         nested(key, [&](ObjectReader& inside) { fields(inside, thing); });
     }
-    /// One that need not be there.
+    /// An optional object.
     template <class Thing>
     void object(const char* key, std::optional<Thing>& thing)
     {
@@ -88,9 +88,9 @@ private:
     /// Throws for unknown keys first: a mistyped key explains a missing one.
     void finish() const;
 
-    /// The value of a key, or null; a missing required key is reported by `finish`.
+    /// The value of a key, or null; `finish` reports a missing required key.
     const Json* find(const char* key, Presence presence = {});
-    /// The position of the one key that is there; as many as `keys` when none is, which `finish` reports.
+    /// The index of the only key present; keys.size() if there is none, which `finish` reports.
     std::size_t the_only_key(Names keys);
     std::string path_of(const char* key) const { return member_path(path_, key); }
 
@@ -106,7 +106,7 @@ private:
             read((*array)[i], element_path(path_of(key), i), folder_, inside);
     }
 
-    /// Makes alternative `index` of the variant the active one and hands it over.
+    /// Makes alternative `index` of the variant active and passes it on.
     template <class Variant, class With, std::size_t i = 0>
     static void alternatives(Variant& variant, std::size_t index, const char* key, With& with)
     {
@@ -120,7 +120,7 @@ private:
     std::string path_;
     std::filesystem::path folder_;
     std::vector<const char*> known_;
-    std::optional<FieldError> missing_;  // about the first required key that is not there
+    std::optional<FieldError> missing_;  // for the first missing required key
 };
 
 }  // namespace pliant::scene_format

@@ -1,4 +1,4 @@
-// Reads a scene: finds its text, parses it, applies overrides, fills the fields, validates the whole.
+// Reads a scene: finds its text, parses it, applies overrides, fills the fields, validates the result.
 #include <algorithm>
 #include <fstream>
 
@@ -12,9 +12,9 @@ namespace {
 
 struct SceneText {
     std::string text;
-    std::string source;            // how messages call it
+    std::string source;            // its name in messages
     std::string name;              // of the scene, unless the file says otherwise
-    std::filesystem::path folder;  // where its relative file names start
+    std::filesystem::path folder;  // base of its relative file names
 };
 
 const BuiltinScene* find_builtin(const std::string& name)
@@ -37,7 +37,7 @@ const BuiltinScene* find_builtin(const std::string& name)
 
 std::string read_text(const std::filesystem::path& file)
 {
-    constexpr std::size_t longest = std::size_t{64} << 20U;  // bytes; a device that never ends is no scene
+    constexpr std::size_t longest = std::size_t{64} << 20U;  // bytes; stops at endless devices
     std::ifstream stream(file, std::ios::binary);
     std::string text;
     char block[1U << 16U];
@@ -53,7 +53,7 @@ std::string read_text(const std::filesystem::path& file)
     return text;
 }
 
-/// A built-in name always means the built-in scene; a file of that name is reached as ./name.
+/// A built-in name always means the built-in scene; a file with that name can be given as ./name.
 SceneText find_scene_text(const std::string& file_or_name)
 {
     if (const BuiltinScene* scene = find_builtin(file_or_name))

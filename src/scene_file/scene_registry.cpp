@@ -1,4 +1,4 @@
-// The built-in scenes as `pliant list` shows them.
+// The list of built-in scenes, for `pliant list`.
 #include "pliant/scene.hpp"
 #include "scene_file/builtin_scenes.hpp"
 #include "scene_file/document.hpp"

@@ -1,4 +1,4 @@
-// The hand that pulls at a node: what Simulation::grab keeps.
+// The hand that pulls a node (Simulation::grab).
 #pragma once
 
 #include <optional>
@@ -13,15 +13,16 @@ struct Hand {
     Vec3d target = {};                  ///< m, in the model's coordinates
     double stiffness = 0, damping = 0;  ///< N/m, N s/m
     double mass = 0;                    ///< kg, of the node without the hand
-    double step = 0;                    ///< s, that the node's mass is made for now; 0: it has its own
+    double step = 0;                    ///< s, the step length for which the node's mass is set; 0: its own
+                                        ///< mass
 
-    /// m' of `grabbed_velocity`, in laws/integration.law.glsl.
+    /// m' of `grabbed_velocity` in laws/integration.law.glsl.
     double mass_in(double step_length) const
     {
         return mass + step_length * (damping + step_length * stiffness);
     }
-    /// The same in an implicit step of second order, which makes m' (1 + d s) of a mass m', for the air: what
-    /// the hand adds is no more in air. s: ClothModel::implicit_step.
+    /// The same for a second-order implicit step. That step multiplies masses by 1 + d s for the air; the
+    /// hand's own mass must not grow by it. s: ClothModel::implicit_step.
     double implicit_mass_in(double s, double air_damping) const { return mass + held(s, air_damping); }
     GrabInput implicit_input(double s, double air_damping) const
     {
@@ -32,9 +33,9 @@ struct Hand {
     {
         return s * (damping + s * stiffness) / (1 + air_damping * s);
     }
-    /// What the pass grab needs in a step of a cloth in air that takes `air_damping` (1/s) of velocities. The
-    /// pull is given as velocity, of which the step then takes that part, so it is given that much more: else
-    /// what hangs from the hand would seem to weigh more than it does.
+    /// Input of the pass grab, for a cloth whose air removes the part `air_damping` (1/s) of velocities. The
+    /// pull is given as a velocity and is increased to compensate for that damping; otherwise a load on the
+    /// hand would seem heavier than it is.
     GrabInput input(double step_length, double air_damping) const
     {
         const double decay = 1 - air_damping * step_length;
@@ -44,7 +45,7 @@ struct Hand {
     }
 };
 
-/// Gives a model's node the mass that it has in the hand, or its own; true when that is another than before.
+/// Sets the mass of the hand's node for this step length. Returns whether it changed.
 inline bool set_mass(ClothModel& model, Hand& hand, double step_length)
 {
     if (hand.step == step_length) return false;
@@ -58,7 +59,7 @@ inline bool set_mass(ClothModel& model, Hand& hand, double step_length)
     return true;
 }
 
-/// What the hand does in a step of its model.
+/// The hand's input for one step of its model.
 inline GrabInput grab_input(const ClothModel& model, const Hand& hand, double step_length)
 {
     const double air = model.parameters.damping;

@@ -16,12 +16,12 @@ std::uint64_t key_of(std::uint32_t i, std::uint32_t j)
     return std::uint64_t{std::min(i, j)} << 32 | std::max(i, j);
 }
 
-/// The stretch from which a constraint can hold a spring of a class; below -1 where none does.
+/// The strain from which a constraint can hold a spring of a class; below -1 if none does.
 double limit_of(const ClothModel& model, SpringClass of)
 {
     const LimitedSprings& springs = model.limits.of_class[static_cast<std::size_t>(of)];
     if (!(springs.beyond > 0)) return -2;
-    // Too short counts, too: the mark alone decides.
+    // With compression resisted, short springs count, too: the mark alone decides.
     return model.plan.method == Method::acad && model.plan.acad.compression ? -0.999 : springs.limit;
 }
 
@@ -72,7 +72,7 @@ void HeldSprings::find_sheet_marks(const ClothModel& model)
                            right = static_cast<std::int32_t>(spring.j % columns) - column;
         // As forward_offset of kernels/sheet.kernel.glsl.
         const int k = down == 0 ? (right == 1 ? 0 : 4) : down == 2 ? 5 : 2 + right;
-        if (remembers_ && k >= 4) continue;  // bend springs remember nothing
+        if (remembers_ && k >= 4) continue;  // bend springs have no memory
         spring.mark = std::int64_t{k} * level.size + Hierarchy::offset(level, row, column);
     }
 }
@@ -103,8 +103,7 @@ void HeldSprings::read(PassRunner& runner, std::uint32_t model, std::span<const 
 {
     held.assign(springs_.size(), 0);
     if (springs_.empty()) return;
-    // A step of acad that had nothing to solve leaves the marks of the last one that had; but then the
-    // forces are 0.
+    // A step of acad with nothing to solve leaves the marks of an earlier step; its forces are then 0.
     if (marked_) runner.solver_numbers(model, first_, count_, marks_);
     for (std::size_t s = 0; s < springs_.size(); ++s) {
         const Row& spring = springs_[s];
@@ -118,7 +117,7 @@ void HeldSprings::read(PassRunner& runner, std::uint32_t model, std::span<const 
         if (!rows_) {
             const Vec3d d = to_double(positions[spring.j]) - to_double(positions[spring.i]);
             const double least = double{spring.least};
-            // By its compliance a spring under force is a little longer than its limit.
+            // Compliance lets a spring under force be slightly longer than its limit.
             if (!(forces[spring.i] > 0 && forces[spring.j] > 0 && std::sqrt(dot(d, d)) > least)) continue;
         }
         held[s] = 1;

@@ -13,7 +13,8 @@ namespace {
 
 Scene without_tolerance(Scene scene)
 {
-    scene.newton_multigrid.linear_tolerance = 0;  // else the kernels end the iteration by their own rule
+    scene.newton_multigrid.linear_tolerance = 0;  // otherwise the kernels would end the iteration by their
+                                                  // own rule
     return scene;
 }
 
@@ -35,7 +36,8 @@ LinearBenchmark::LinearBenchmark(const Scene& scene, std::span<const Vec3> posit
 {
     models_.emplace_back(scene.cloth(0), without_tolerance(scene));
     ClothModel& model = models_.front();
-    for (std::uint32_t vertex = 0; vertex < positions.size(); ++vertex) {  // rest lengths are known already
+    for (std::uint32_t vertex = 0; vertex < positions.size(); ++vertex) {  // the model has its rest lengths
+                                                                           // already
         model.shape.positions[model.shape.node(vertex)] = positions[vertex];
         model.shape.velocities[model.shape.node(vertex)] = velocities[vertex];
     }
@@ -65,7 +67,7 @@ LinearBenchmark::Solution LinearBenchmark::solve(double goal, std::uint32_t most
         const double first = scalar(scalar_first_residual2);
         solution.residual = first > 0 ? std::sqrt(scalar(scalar_residual2) / first) : 0;
         solution.reached = solution.residual <= goal;
-        if (made == solution.iterations) break;  // rounding has ended it
+        if (made == solution.iterations) break;  // no progress: limited by rounding
         solution.iterations = made;
     }
     solution.milliseconds =

@@ -1,5 +1,4 @@
-// The linear systems of the constraint solver by themselves: how many iterations one takes to a residual, and
-// how long.
+// Solves linear systems of the constraint solver in isolation: iterations and time until a given residual.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +13,11 @@
 
 namespace pliant {
 
-/// The first linear system of a step of a scene's one cloth, solved as often as asked. The scene's
-/// `linear_tolerance` and limits of iterations are not used: conjugate gradients go on to the residual asked
-/// for.
+/// The first linear system of a step of a scene's single cloth, which can be solved repeatedly. Ignores the
+/// scene's `linear_tolerance` and iteration limits: conjugate gradients continue to the given residual.
 class LinearBenchmark {
 public:
-    /// A step of `step_length` s begins at these positions and velocities. `backend` must not be automatic.
+    /// The step of `step_length` s begins at these positions and velocities. `backend` must not be automatic.
     LinearBenchmark(const Scene& scene, std::span<const Vec3> positions, std::span<const Vec3> velocities,
                     double step_length, Backend backend, const SimulationOptions& options);
 
@@ -27,10 +25,11 @@ public:
         std::uint32_t iterations = 0;
         double residual = 1;  ///< |r| / |r0| at the end
         bool reached = false;
-        double milliseconds = 0;  ///< with what prepares the preconditioner, without the system itself
+        double milliseconds = 0;  ///< includes the preparation of the preconditioner, excludes the assembly
+                                  ///< of the system
     };
-    /// Iterates until |r| / |r0| <= `goal`, which is looked at after every `between` iterations, or `most`
-    /// are made.
+    /// Iterates until |r| / |r0| <= `goal`, tested after every `between` iterations, at most `most`
+    /// iterations.
     Solution solve(double goal, std::uint32_t most, std::uint32_t between = 1);
 
 private:

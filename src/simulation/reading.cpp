@@ -1,4 +1,4 @@
-// What is read of a simulation, and states that are put into it.
+// Reads states from a simulation and puts states into it.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -50,10 +50,10 @@ void Simulation::Implementation::set_state(const State& state)
         std::vector<bool> moved(x.size(), false);
         for (const AttachedNode& a : models[m].attachments.nodes) moved[a.node] = true;
         for (std::size_t i = 0; i < x.size(); ++i)
-            if (!(models[m].masses.inverse(i) > 0) && !moved[i]) v[i] = {};  // a pin that stands still
+            if (!(models[m].masses.inverse(i) > 0) && !moved[i]) v[i] = {};  // a pin that does not move
         runner->write(m, x, v);
         if (!knows_who_rises) find_sunk(scene, models[m], x, state.time, lets_rise);
-        // Of another method or solver, it says nothing here.
+        // The memory of another method or solver does not apply here.
         const bool knows = m < state.memory.size() && state.memory[m].size() == solver_memory_size(models[m]);
         put_solver_memory(*runner, models[m], m, knows ? state.memory[m] : std::vector<float>{});
     }
@@ -175,7 +175,7 @@ std::span<const std::uint32_t> Simulation::Implementation::held_springs(std::siz
     ReadBack::Values<std::uint32_t>& target = read_backs.at(cloth).held;
     if (target.frame == state_number) return target.values;
     const ClothPlace& place = places[cloth];
-    if (models[place.model].plan.is_body()) return {};  // they have no constraints
+    if (models[place.model].plan.is_body()) return {};  // bodies have no constraints
     held.resize(places.size());
     if (!held[cloth]) held[cloth].emplace(models[place.model], springs(cloth), place.node_of_vertex);
     const auto forces = multipliers(cloth);

@@ -88,7 +88,7 @@ void Simulation::release() noexcept
     try {
         implementation_->release();
     } catch (const std::exception& error) {
-        implementation_->stop(error.what());  // the device is lost
+        implementation_->stop(error.what());  // for example if the device is lost
     }
 }
 State Simulation::state() { return implementation_->state(); }
@@ -204,7 +204,7 @@ std::string Simulation::resolution_warning() const
             char distance[64];
             std::snprintf(distance, sizeof distance, "at %.3g m from ", farthest);
             const std::string& name = scene().cloth(c).name;
-            // The coordinates of a body begin near its middle, wherever it is.
+            // The origin of a body's coordinates is near its middle.
             if (model.plan.is_body())
                 return "body '" + name + "': " + distance + "its middle" + text +
                        "use a mesh without edges as short as that";
@@ -248,7 +248,7 @@ std::vector<std::string> Simulation::warnings() const
 std::optional<DeviceBuffers> Simulation::device_buffers(std::size_t cloth)
 {
     if (!implementation_->device_state) return std::nullopt;
-    if (scene().cloth(cloth).is_body()) return std::nullopt;  // its nodes lie in an order of their own
+    if (scene().cloth(cloth).is_body()) return std::nullopt;  // its nodes have another order
     const vulkan::Device& device = *implementation_->device_state->device();
     const DeviceClothBuffers buffers = [&] {
         try {

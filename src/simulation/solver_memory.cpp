@@ -10,7 +10,7 @@ namespace pliant {
 std::vector<ArenaRange> solver_memory_ranges(const ClothModel& model)
 {
     const Hierarchy& hierarchy = model.hierarchy;
-    // A step of ACAD that makes springs good remembers nothing of these.
+    // ACAD's correcting step keeps none of these.
     if (hierarchy.empty() || model.plan.solver == Solver::paper || model.plan.corrects_steps()) return {};
     const SolverLevel& cloth = hierarchy.levels.front();
     const auto size = static_cast<std::size_t>(cloth.size);
@@ -64,7 +64,7 @@ void fit_solver_memory(PassRunner& runner, const ClothModel& model, std::uint32_
     if (!(from > to) || !model.limits.remembers_any())
         return;  // a limit that is stiffer than need be is as good
     const SolverLevel& cloth = model.hierarchy.levels.front();
-    const ArenaRange limits = solver_memory_ranges(model).back();  // slips, and then as many stiffnesses
+    const ArenaRange limits = solver_memory_ranges(model).back();  // slips, followed by as many stiffnesses
     std::vector<float> numbers;
     runner.solver_numbers(index, limits.first, limits.count, numbers);
     const std::span slips = std::span(numbers).first(limits.count / 2);
@@ -86,7 +86,7 @@ void fit_solver_memory(PassRunner& runner, const ClothModel& model, std::uint32_
     }
     for (std::size_t k = 0; k < slips.size(); ++k) {
         const double stiffness{stiffnesses[k]};
-        if (!(stiffness > 0)) continue;  // new, or none
+        if (!(stiffness > 0)) continue;  // new, or no limit
         Softest least = softest[static_cast<std::size_t>(class_of(k))];
         const auto edge = static_cast<std::int32_t>(k);
         if (!model.plan.on_grid && edge >= cloth.held && edge < cloth.loose) {

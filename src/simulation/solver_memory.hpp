@@ -1,5 +1,5 @@
-// What the constraint solver keeps of a cloth from step to step: forces of contact, and of limits that
-// remember them. It belongs to the state of a simulation.
+// What the constraint solver keeps of a cloth from step to step: forces of contact and of limits with memory.
+// It is part of the state of a simulation.
 #pragma once
 
 #include <vector>
@@ -9,20 +9,20 @@
 
 namespace pliant {
 
-/// Where it lies; none for a cloth that has no such solver.
+/// Ranges of the arena; empty for a cloth without such a solver.
 std::vector<ArenaRange> solver_memory_ranges(const ClothModel& model);
 
 std::vector<float> solver_memory(PassRunner& runner, const ClothModel& model, std::uint32_t index);
 
-/// How many numbers it has.
+/// The count of its numbers.
 std::size_t solver_memory_size(const ClothModel& model);
 
-/// Takes them back; empty, and the solver begins anew.
+/// Restores the memory. If it is empty, the solver starts without memory.
 void put_solver_memory(PassRunner& runner, const ClothModel& model, std::uint32_t index,
                        const std::vector<float>& memory);
 
-/// Makes what limits remember of steps of the length `from` (s) fit steps of the length `to`: their stiffness
-/// goes by the length, and their forces stay.
+/// Rescales the limits' memory from steps of length `from` (s) to steps of length `to`: stiffnesses depend on
+/// the length, forces do not change.
 void fit_solver_memory(PassRunner& runner, const ClothModel& model, std::uint32_t index, double from,
                        double to);
 

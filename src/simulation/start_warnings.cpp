@@ -10,7 +10,7 @@
 namespace pliant {
 namespace {
 
-/// Calls visit(gap), in m, for each node that is not pinned, as long as that returns true.
+/// Calls visit(gap), in m, for each free node until it returns false.
 template <class Visit>
 void visit_gaps(const Collider& collider, const ClothModel& model, std::span<const Vec3> positions,
                 double time, const Visit& visit)
@@ -39,7 +39,7 @@ void find_sunk(const Scene& scene, const ClothModel& model, std::span<const Vec3
 
 std::vector<std::string> starts_inside(const Scene& scene, const Cloth& cloth, const ClothModel& model)
 {
-    constexpr double noticeable = 1e-4;  // m; what lies on a surface is rounded
+    constexpr double noticeable = 1e-4;  // m; allows for rounding of nodes on a surface
     std::vector<std::string> sentences;
     for (std::size_t k = 0; k < scene.colliders.size(); ++k) {
         std::size_t count = 0;

@@ -1,4 +1,4 @@
-// What a scene asks for at its start that a user hardly means, and colliders that nodes are inside of.
+// Warnings about a scene's start that its author hardly intends, and colliders that contain nodes.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,18 @@
 
 namespace pliant {
 
-/// m: contact leaves nodes no deeper than this in a collider and its cloth's thickness; as `sunk_depth` of
-/// laws/contact.law.glsl.
+/// m: contact leaves nodes at most this deep in a collider and the thickness around it; equals the limit in
+/// `sunk_depth` of laws/contact.law.glsl.
 constexpr double deepest_contact = 0x1p-10;
 
-/// By collider: 1 where a free node of a model is deeper in it than contact leaves one.
+/// By collider: 1 if a free node of a model is deeper in it than contact leaves nodes.
 void find_sunk(const Scene& scene, const ClothModel& model, std::span<const Vec3> positions, double time,
                std::vector<std::uint8_t>& sunk);
 
 /// A sentence for each collider in which free nodes of the cloth start.
 std::vector<std::string> starts_inside(const Scene& scene, const Cloth& cloth, const ClothModel& model);
 
-/// Sentences about targets of a soft body's volume that change faster than bodies bear.
+/// Sentences about targets of a soft body's volume that change too fast for it.
 std::vector<std::string> fast_targets(const Cloth& body);
 
 }  // namespace pliant

@@ -1,4 +1,4 @@
-// How a simulation is made and stepped, and what is measured of it.
+// Creates a simulation, steps it and measures it.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -48,7 +48,7 @@ Simulation::Implementation::Implementation(const Scene& given, const SimulationO
     : scene(given), backend(resolve(options))
 {
     validate(scene);
-    cpu::choose_kernels(options.instruction_set);  // a name that does not exist is wrong on every backend
+    cpu::choose_kernels(options.instruction_set);  // an unknown name is an error on every backend
     make_models();
     stable_step = std::numeric_limits<double>::infinity();
     for (const ClothModel& model : models) stable_step = std::min(stable_step, model.stable_step());
@@ -62,7 +62,7 @@ Simulation::Implementation::Implementation(const Scene& given, const SimulationO
         start_runner(options);
     } catch (const Error&) {
         if (backend != Backend::vulkan || options.backend == Backend::vulkan || options.device >= 0) throw;
-        backend = Backend::cpu;  // automatic: whatever the GPU's trouble is, the CPU does not share it
+        backend = Backend::cpu;  // automatic: fall back to the CPU
         device_state = nullptr;
         start_runner(options);
     }
@@ -129,8 +129,8 @@ void Simulation::Implementation::measure()
 std::pair<std::uint64_t, double> Simulation::Implementation::steps_of(double duration) const
 {
     constexpr double rounding = 1e-9;
-    // Limits that remember are made right from step to step. In long steps they are stable but wrong, so such
-    // steps are divided. Springs without limits may take long steps: a scene finds its rest by them.
+    // Limits with memory are corrected from step to step. In long steps they are stable but inaccurate, so
+    // such steps are divided. Springs without limits may take long steps to find a state of rest.
     constexpr double longest = 1 / 20.0;
     const bool remembers = std::any_of(models.begin(), models.end(),
                                        [](const ClothModel& m) { return m.limits.remembers_any(); });
@@ -142,8 +142,7 @@ std::pair<std::uint64_t, double> Simulation::Implementation::steps_of(double dur
         const double step = 1 / (scene.time.frame_rate * scene.time.substeps);
         return divided(std::max(0.0, std::round(duration / step)), step);
     }
-    if (stepped_method(scene) ==
-        Method::constraint) {  // implicit: a step is as long as a frame unless asked for
+    if (stepped_method(scene) == Method::constraint) {  // implicit: one step per frame by default
         const double frames = std::max(1.0, std::round(duration * scene.time.frame_rate));
         return divided(frames, duration / frames);
     }
@@ -153,7 +152,7 @@ std::pair<std::uint64_t, double> Simulation::Implementation::steps_of(double dur
 
 void Simulation::Implementation::refuse_too_many_steps() const
 {
-    constexpr double most = 100'000;  // as many as a scene may ask for by itself
+    constexpr double most = 100'000;  // the largest number that a scene may ask for
     const double frame = 1 / scene.time.frame_rate;
     if (stepped_method(scene) != Method::constraint && scene.time.substeps == 0 && frame / stable_step > most)
         throw Error(ErrorKind::bad_input,
@@ -166,9 +165,9 @@ void Simulation::Implementation::advance(double duration)
 {
     const auto start = std::chrono::steady_clock::now();
     const auto [steps, step] = steps_of(duration + owed_seconds);
-    // Whole steps do not add up to what was asked for; the rest is asked for with the next call.
+    // The steps do not add up to the duration; the remainder carries over to the next call.
     owed_seconds = scene.time.substeps > 0 ? duration + owed_seconds - static_cast<double>(steps) * step : 0;
-    // A long stretch runs in pieces, so that programs stay short and few.
+    // Many steps run in batches, so that programs stay short and few.
     const std::uint64_t node_count = total(&ClothModel::node_count);
     const std::uint64_t most =
         std::clamp<std::uint64_t>(most_work_at_once / node_count, 1, most_steps_at_once);
@@ -213,7 +212,7 @@ void Simulation::Implementation::run_program(const Program& program, std::uint32
 Kept Simulation::Implementation::kept(std::uint32_t model, std::uint32_t steps,
                                       std::uint32_t from_parity) const
 {
-    // One step leaves the state that it starts from where it is; its three parts do not.
+    // A single step leaves its initial state unchanged; its three parts do not.
     const bool may_overwrite = steps > 1 || models[model].plan.newton.step_cuts > 1;
     return {model, from_parity, may_overwrite, solver_memory_ranges(models[model])};
 }
@@ -228,12 +227,12 @@ void Simulation::Implementation::cut_steps(std::uint32_t model, std::uint32_t st
 {
     // An odd number of parts, so that the state ends in the same copy as those of the other cloths.
     constexpr std::uint32_t parts = 3;
-    // The force of a limit is a step behind. What pulls at once, as a pin that begins to move, stretches it
-    // by as much as a step is long, more than this.
+    // The force of a limit lags by one step. A sudden pull, such as by a pin that begins to move, stretches
+    // it by more than this, in proportion to the step's length.
     constexpr double at_once = 0.01, helps = 0.8;
     const bool holds = models[model].limits.does_not_stretch(step);
     const double limit = models[model].limits.largest();
-    // Cloth that is stretched already cannot reach as far as it is pulled, in steps of any length.
+    // Cloth that is already overstretched cannot follow the pull in steps of any length.
     const double most = stretch_before < limit + 2 * at_once ? std::max(stretch_before, limit) + at_once
                                                              : std::numeric_limits<double>::infinity();
     const auto stretch_now = [&] { return holds ? runner->measures(model).max_stretch : 0; };
@@ -249,7 +248,7 @@ void Simulation::Implementation::cut_steps(std::uint32_t model, std::uint32_t st
         const double residual_before = std::exchange(residual, solver_number(model, scalar_residual_max));
         const double longest = std::exchange(stretch, stretch_now());
         if (is_solved ? !(stretch < helps * longest) : !(residual < residual_before))
-            break;  // another cut would not help
+            break;  // a further cut would not help
     }
     if (all_parts == 1) return;
     ++report.solver.frames_cut;
@@ -299,7 +298,7 @@ double Simulation::Implementation::on_frame(double time, double advanced) const
 const Program& Simulation::Implementation::frame_program(std::uint32_t steps, std::uint32_t only)
 {
     const std::uint32_t grabbed = hand ? hand->model : no_cloth;
-    // A cloth's steps that are taken anew have begun in the copy that the first ones began in.
+    // Steps that are repeated begin in the same copy of the state as the first time.
     const std::uint32_t from_parity = only == no_cloth ? parity : (parity ^ steps) & 1;
     const std::array key = {steps, from_parity, grabbed, only};
     auto found = programs.find(key);
@@ -337,7 +336,8 @@ void Simulation::Implementation::place_colliders(std::uint32_t steps, double ste
 
 void Simulation::Implementation::find_jumps(std::uint32_t steps, double step)
 {
-    constexpr double fastest_collider = 100;  // m/s; what is faster jumps, and gives nobody that speed
+    constexpr double fastest_collider = 100;  // m/s; a faster collider counts as jumping, and gives no speed
+                                              // to nodes
     const std::size_t count = scene.colliders.size();
     const auto length = [](Vec3d a) { return std::sqrt(dot(a, a)); };
     for (std::size_t k = 0; k < count; ++k) {
@@ -346,7 +346,7 @@ void Simulation::Implementation::find_jumps(std::uint32_t steps, double step)
         for (std::size_t s = 0; s < steps; ++s) {
             PlacedCollider& now = placed[s * count + k];
             if (length(now.velocity) > fastest_collider) now.velocity = {};
-            // A start or a stop within a step moves a collider by no more than its speed does.
+            // A collider that starts or stops within a step moves at most at its speed.
             const double way = step * (length(before.velocity) + length(now.velocity));
             if (length(now.centre - before.centre) > way + deepest_contact) lets_rise[k] = 1;
             before = now;

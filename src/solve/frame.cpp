@@ -27,19 +27,18 @@ void append_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t ste
     }
 }
 
-/// The loops of linear systems and of the line search are within Newton's: where it has ended, they have,
-/// too.
+/// The loops of linear systems and of the line search are inside Newton's: when that has ended, so have they.
 bool ends_with(Guard outer, Guard guard)
 {
     return guard == outer || (outer == Guard::newton && (guard == Guard::linear || guard == Guard::search));
 }
 
-/// Counts for every guarded call those after it that are skipped with it: skipping does not change what
-/// guards them, so that a loop that has ended is left in one go.
+/// For each guarded call, counts the following calls that are skipped with it. Skipped calls do not change
+/// their guards, so an ended loop is left in one jump.
 void count_guarded(std::vector<Call>& calls)
 {
     constexpr std::array guards = {Guard::newton, Guard::linear, Guard::search, Guard::idle};
-    std::array<std::size_t, guards.size()> ends{};  // by guard: the first call from here that goes on
+    std::array<std::size_t, guards.size()> ends{};  // by guard: the next call that is not skipped
     for (std::size_t k = calls.size(); k-- > 0;) {
         Call& call = calls[k];
         if (k + 1 == calls.size() || calls[k + 1].cloth != call.cloth) ends.fill(k + 1);

@@ -1,4 +1,4 @@
-// A frame of any method as calls of passes: what the simulation runs.
+// A frame of any method as a sequence of passes.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@ namespace pliant {
 
 constexpr std::uint32_t no_cloth = ~0u;
 
-/// Appends one frame: `steps` steps of every cloth by the method and solver that it was made for, starting
-/// from the state copy `parity`, then the measures of the state that they reach. Returns the parity of that
-/// state. Every step of the cloth `grabbed` begins with the pull of a hand, see FrameInput::grab. With
-/// `only`, that cloth alone is stepped and measured.
+/// Appends one frame: `steps` steps of every cloth by its own method and solver, starting from the state copy
+/// `parity`, then the measures of the final state. Returns the parity of that state. Every step of the cloth
+/// `grabbed` begins with the pull of a hand, see FrameInput::grab. With `only`, just that cloth is stepped
+/// and measured.
 std::uint32_t append_frame(std::span<const ClothModel> cloths, std::uint32_t steps, std::uint32_t parity,
                            std::vector<Call>& calls, std::uint32_t grabbed = no_cloth,
                            std::uint32_t only = no_cloth);

@@ -6,8 +6,8 @@
 namespace pliant {
 namespace {
 
-/// Explicit Euler and Runge-Kutta: forces of the state that a stage begins with, then the stage. From the
-/// second on that state is the next one, so that its forces are those of the other parity.
+/// Explicit Euler and Runge-Kutta: the forces of the stage's initial state, then the stage. From the second
+/// stage on that state is in the next copy, so forces use the other parity.
 void append_stages(const ClothModel& cloth, std::uint32_t index, std::uint32_t step, std::uint32_t parity,
                    std::vector<Call>& calls)
 {

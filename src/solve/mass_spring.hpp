@@ -1,4 +1,4 @@
-// The mass-spring method as sequences of passes; it knows no backend.
+// The mass-spring method as sequences of passes, independent of the backend.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +14,11 @@ namespace pliant {
 void append_mass_spring_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step,
                              std::uint32_t parity, std::vector<Call>& calls);
 
-/// Appends the motion of the nodes that moving pins hold, to where they are at the end of a step.
+/// Appends the motion of attached nodes to where their pins are at the end of a step.
 void append_attachments(const ClothModel& cloth, std::uint32_t index, std::uint32_t step,
                         std::uint32_t parity, std::vector<Call>& calls);
 
-/// Appends the forces from outside on one cloth before a step: of the wind, where there is air, and loads.
+/// Appends the wind's force on one cloth before a step, unless the density of air is 0.
 void append_external_forces(const ClothModel& cloth, std::uint32_t index, std::uint32_t step,
                             std::uint32_t parity, std::vector<Call>& calls);
 
@@ -26,7 +26,7 @@ void append_external_forces(const ClothModel& cloth, std::uint32_t index, std::u
 void append_measures(const ClothModel& cloth, std::uint32_t index, std::uint32_t parity, std::uint32_t step,
                      std::vector<Call>& calls);
 
-/// Appends what drawing one cloth needs beside its positions: normals and strains.
+/// Appends the drawing data of one cloth besides positions: normals and strains.
 void append_drawing(const ClothModel& cloth, std::uint32_t index, std::uint32_t parity,
                     std::vector<Call>& calls);
 

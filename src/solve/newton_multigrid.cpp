@@ -6,10 +6,10 @@
 namespace pliant {
 namespace {
 
-/// How often a Newton step is tried before it is given up: whole, 1/4, 1/16, 1/256, 1/65536, none.
+/// The tries of a line search: the whole Newton step, 1/4, 1/16, 1/256, 1/65536 of it, none.
 constexpr std::uint32_t search_tries = 6;
-/// A step whose residual is above 1 after the iterations that are enough for others has more of them. Those
-/// of an impact need them.
+/// If the residual is above 1 after the usual iterations, for example at an impact, a step gets this many
+/// times as many.
 constexpr std::uint32_t while_unsolved = 3;
 constexpr int polishes_of_mesh = 3;
 
@@ -45,7 +45,7 @@ public:
         add(Pass::solve_end);
     }
 
-    /// A step of ACAD: springs alone, and then the limits of those that they stretch too far.
+    /// A step of ACAD: springs alone, then a correction with limits for the springs that are too long.
     void acad_step()
     {
         add(on_mesh_ ? Pass::mesh_limits : Pass::sheet_limits);
@@ -63,7 +63,7 @@ public:
         add(Pass::solve_end);
     }
 
-    /// The first linear system of a step, without its solution.
+    /// The first linear system of a step, not solved.
     void linear_system()
     {
         add(Pass::step_begin);
@@ -95,7 +95,7 @@ private:
         calls_.push_back({pass, index_, parity_, step_, level, detail, guard});
     }
 
-    /// What took part in the last solve and may not in this one.
+    /// Clears rows that were live in the last solve.
     void clear(std::uint32_t level)
     {
         add(on_mesh_ ? Pass::mesh_clear : Pass::sheet_clear, Guard::idle, level);
@@ -110,9 +110,9 @@ private:
         add(on_mesh_ ? Pass::mesh_gather : Pass::sheet_gather, guard, 0, look);
     }
 
-    /// What is left of local errors. Of a mesh once is not enough: a node at its border has three or four
-    /// springs, all in one plane, across which little holds it. A polish takes it out of that plane by what
-    /// stretches them by some per cent, and the next one brings it back.
+    /// Reduces local errors. On a mesh one polish is not enough: a node at the border has three or four
+    /// springs, all in one plane, and little resists motion across it. One polish moves the node out of that
+    /// plane, which stretches its springs by some per cent; the next one brings it back.
     void polish()
     {
         const int times = on_mesh_ ? polishes_of_mesh : 1;
@@ -122,7 +122,7 @@ private:
         }
     }
 
-    /// Normal forces as they are now, for the rest of the step.
+    /// Updates the normal forces for the rest of the step.
     void renew_contact()
     {
         add(Pass::contact_change);
@@ -164,8 +164,8 @@ private:
         }
     }
 
-    /// A V-cycle from a level on. The pass that writes the level's residual makes the first smoothing step,
-    /// from zero, so the correction is there already. The result is in its second copy.
+    /// A V-cycle from a level down. The pass that writes the level's residual also makes the first smoothing
+    /// step, from zero, so the first correction exists already. The result is in the second copy.
     void cycle(std::uint32_t level)
     {
         if (level + 1 == level_count_) {
@@ -183,7 +183,8 @@ private:
         const std::uint32_t child = level + 2 == level_count_ ? 0 : 1;
         add(on_mesh_ ? Pass::mesh_prolong : Pass::sheet_prolong, Guard::linear, level + 1,
             detail_of(child, copy));
-        for (std::uint32_t k = sweeps; k-- > 0; copy ^= 1)  // backwards, so that the cycle is symmetric
+        for (std::uint32_t k = sweeps; k-- > 0; copy ^= 1)  // in reverse order, so that the cycle is
+                                                            // symmetric
             add(smooth, Guard::linear, level, detail_of(copy, k));
     }
 
@@ -198,7 +199,7 @@ private:
 
 std::uint32_t enough_iterations(const ClothModel& cloth)
 {
-    // ACAD bounds stretch by stiff limits that come and go; a step of it that is left half solved wins
+    // ACAD bounds strain by stiff limits that come and go; a step of it that is only half solved gains
     // energy.
     constexpr std::uint32_t of_acad = 4;
     return cloth.plan.newton.newton_iterations * (cloth.plan.method == Method::acad ? of_acad : 1);

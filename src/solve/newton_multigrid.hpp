@@ -1,5 +1,6 @@
-// Constraints as one minimisation in each implicit step: Newton's method, each linear system by conjugate
-// gradients with a multigrid V-cycle for its preconditioner. As sequences of passes; it knows no backend.
+// Constraints as one minimisation per implicit step: Newton's method, with each linear system solved by
+// conjugate gradients and a multigrid V-cycle as preconditioner. Sequences of passes, independent of the
+// backend.
 #pragma once
 
 #include <cstdint>
@@ -10,20 +11,19 @@
 
 namespace pliant {
 
-/// Newton iterations of a step, unless it is not solved by then.
+/// Newton iterations of a step that is solved by then; others take more.
 std::uint32_t enough_iterations(const ClothModel& cloth);
 
 /// Appends one implicit step of one cloth, from the state copy `parity` to the other.
 void append_constraint_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step,
                             std::uint32_t parity, std::vector<Call>& calls);
 
-/// The same for ACAD: a step of springs alone, made good where it stretches a spring beyond the threshold.
+/// The same for ACAD: a step with springs alone, corrected if a spring exceeds the threshold.
 void append_acad_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step, std::uint32_t parity,
                       std::vector<Call>& calls);
 
-/// The first linear system of a step by itself, for measurements: what assembles it at the state copy
-/// `parity`, what prepares conjugate gradients for it (with the hierarchy, where there is one), and
-/// iterations.
+/// The first linear system of a step, for measurements. Three parts: assembly at the state copy `parity`;
+/// preparation of conjugate gradients, with the hierarchy if there is one; iterations.
 void append_linear_system(const ClothModel& cloth, std::uint32_t index, std::uint32_t parity,
                           std::vector<Call>& calls);
 void append_linear_start(const ClothModel& cloth, std::uint32_t index, std::uint32_t parity,

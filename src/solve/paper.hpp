@@ -1,5 +1,5 @@
-// Constraints as the cloth paper enforces them: one linear system for the multipliers of a step, by conjugate
-// gradients, and ACAD on top of it. As sequences of passes; it knows no backend.
+// Constraints as the cloth paper enforces them: one linear system per step for the multipliers, solved by
+// conjugate gradients; and ACAD on top of it. Sequences of passes, independent of the backend.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace pliant {
 
-/// Appends one step of one cloth by the solver paper, from the state copy `parity` to the other.
+/// Appends one step of one cloth by the paper's solver, from the state copy `parity` to the other.
 void append_paper_step(const ClothModel& cloth, std::uint32_t index, std::uint32_t step, std::uint32_t parity,
                        std::vector<Call>& calls);
 

@@ -12,7 +12,7 @@ constexpr std::array<Resource, sizeof...(R)> listed(R... resources)
 {
     return {resources...};
 }
-/// The list and one resource more, where `more` says so.
+/// The list, with one more resource if `more`.
 template <bool more, std::size_t n>
 constexpr std::array<Resource, n + more> with(const std::array<Resource, n>& list, Resource added)
 {
@@ -24,7 +24,7 @@ constexpr std::array<Resource, n + more> with(const std::array<Resource, n>& lis
 
 constexpr SumSlots slots_of(std::uint32_t first, std::uint32_t count) { return {first, count}; }
 
-// What each pass reads, writes and sums up, stored once.
+// What each pass reads, writes and sums, stored once.
 #define READS(...) listed(__VA_ARGS__)
 #define WRITES(...) listed(__VA_ARGS__)
 #define SUMS(first, count) slots_of(first, count)
@@ -71,7 +71,7 @@ const char* description_of(Resource resource)
 
 std::span<const PassDescription> all_passes() { return passes; }
 
-// Not in the header: what compiles wide kernels must leave no function that other files might take.
+// Not inline: files of wide kernels must not define functions that the linker may use elsewhere.
 SumSlots sum_slots_of(Pass pass) { return description_of(pass).sums; }
 
 MeasureTree::MeasureTree(std::uint32_t node_count)

@@ -1,4 +1,4 @@
-// Passes and programs: what the methods are written in, and what the backends run.
+// Passes and programs: the sequences of operations that backends run.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ enum class Pass : std::uint32_t {
 #include "solve/passes.def"
 };
 
-/// What a pass is of.
+/// The subject of a pass.
 enum class PassFamily {
     cloth,   ///< explicit steps of cloths, measures, what is drawn
     body,    ///< soft bodies
@@ -40,11 +40,11 @@ constexpr bool is_live(PassUnit unit)
 
 /// How the host runs a pass of a solver.
 enum class HostLoop {
-    each,           ///< unit by unit: packs of them on sheets, one at a time on meshes
-    own_rows,       ///< by a loop of its own, NAME_rows (backend/host)
-    lanes,          ///< of meshes: packs by NAME_lanes (backend/host/mesh_rows.inl)
-    records,        ///< the same; it finds neighbours in records, which are made before
-    groups,         ///< of meshes: packs by a loop of its own, NAME_groups
+    each,           ///< unit by unit: in packs on sheets, one at a time on meshes
+    own_rows,       ///< by its own loop NAME_rows (backend/host)
+    lanes,          ///< meshes: in packs, by NAME_lanes (backend/host/mesh_rows.inl)
+    records,        ///< the same; reads neighbours from records, which are made first
+    groups,         ///< meshes: in packs, by its own loop NAME_groups
     record_groups,  ///< the same, from records
 };
 
@@ -56,7 +56,7 @@ enum class Resource : std::uint32_t {
 const char* name_of(Resource resource);
 const char* description_of(Resource resource);
 
-/// Sums that a pass leaves in parts.
+/// Sums that a pass stores in parts.
 struct SumSlots {
     std::uint32_t first = 0, count = 0;
 };
@@ -65,13 +65,13 @@ struct PassDescription {
     const char* name;
     PassFamily family;
     PassUnit unit;
-    std::span<const Resource> reads, writes;  ///< all of an unguarded call, sums and flags, too
+    std::span<const Resource> reads, writes;  ///< of an unguarded call, including sums and flags
     SumSlots sums;
 };
 const PassDescription& description_of(Pass pass);
 std::span<const PassDescription> all_passes();
 
-/// A call is skipped while the scalar that guards it is set: its loop has ended.
+/// A call is skipped while its guard's scalar is set, which says that its loop has ended.
 enum class Guard : std::uint32_t {
     newton = scalar_newton_done,
     linear = scalar_linear_done,
@@ -85,17 +85,18 @@ struct Call {
     Pass pass;
     std::uint32_t cloth = 0;
     std::uint32_t parity = 0;  ///< which copy of the state is current: 0 or 1
-    std::uint32_t index = 0;   ///< the step of the frame (for its colliders); of measure_merge, the level
+    std::uint32_t index = 0;   ///< the step of the frame (for colliders); for measure_merge, the level of the
+                               ///< tree
     // Of the constraint solver's passes:
     std::uint32_t level = 0;   ///< of the hierarchy, 0 being the cloth
     std::uint32_t detail = 0;  ///< see `detail_of`; of stage_step, the stage (laws/integration.law.glsl)
     Guard guard = Guard::none;
     std::uint32_t guarded_after =
-        0;  ///< calls right after this one that are skipped when it is, see append_frame
+        0;  ///< number of calls right after this one that are skipped with it, see append_frame
 };
 
-/// The planes and the weight of a smoothing step: it reads copy `source` (0 or 1) of the correction, and
-/// damps by number `relaxation` of SolverConstants::relaxations.
+/// The detail of a smoothing step: it reads copy `source` (0 or 1) of the correction, and damps by number
+/// `relaxation` of SolverConstants::relaxations.
 constexpr std::uint32_t detail_of(std::uint32_t source, std::uint32_t relaxation)
 {
     return source | relaxation << 1;
@@ -105,22 +106,22 @@ SumSlots sum_slots_of(Pass pass);
 
 constexpr std::uint32_t sum_slot_count = sum_slots;
 
-/// Sums are taken by one tree, whatever runs a pass: over groups of sum_columns columns (or edges, or rows)
-/// by halves, which leaves the parts; then over the parts, every 256th in a lane, and the lanes by halves.
+/// All backends take sums in the same tree: over groups of sum_columns columns (or edges, or rows) by halves,
+/// which gives the parts; then over every 256th part in a lane, and over the lanes by halves.
 constexpr int most_sums = 3;  ///< of one pass
 constexpr std::uint32_t solver_scalar_count = scalar_count;
 
-/// Neighbouring numbers of the arena of a cloth's solver (Hierarchy).
+/// A range of the arena of a cloth's solver (Hierarchy).
 struct ArenaRange {
     std::size_t first = 0, count = 0;
 };
 
-/// What is kept aside of a cloth before a program, so that its steps can be taken anew
-/// (PassRunner::put_back): numbers of its solver's arena, the solver's scalars, and a copy of the state.
+/// Numbers of a cloth that are saved before a program, so that its steps can be repeated
+/// (PassRunner::put_back): ranges of its solver's arena, the solver's scalars, and a copy of the state.
 struct Kept {
     std::uint32_t cloth = 0;
     std::uint32_t parity = 0;
-    bool state = true;  ///< false where the program leaves that copy of the state as it is
+    bool state = true;  ///< false if the program does not overwrite that copy of the state
     std::vector<ArenaRange> numbers = {};
 };
 
@@ -128,11 +129,11 @@ struct Kept {
 struct Program {
     std::uint64_t id = 0;  ///< unique among the programs given to one runner
     std::vector<Call> calls;
-    std::uint32_t parity_after = 0;  ///< the current copy of the state when it is done
-    std::vector<Kept> keeps = {};    ///< before the first call
+    std::uint32_t parity_after = 0;  ///< the current copy of the state after the program
+    std::vector<Kept> keeps = {};    ///< saved before the first call
 };
 
-/// The same of a pass, for what wide kernels ask.
+/// The properties of a pass that wide kernels use.
 struct PassKind {
     PassFamily family;
     PassUnit unit;
@@ -149,27 +150,27 @@ constexpr HostLoop host_loop_of(Pass pass) { return pass_kinds[static_cast<std::
 
 constexpr bool is_body_pass(Pass pass) { return family_of(pass) == PassFamily::body; }
 
-/// Passes of a solver: they work on its arena and share its kernels.
+/// Solver passes work on the arena and share kernels.
 constexpr bool is_solver_pass(Pass pass)
 {
     return family_of(pass) != PassFamily::cloth && !is_body_pass(pass);
 }
-/// Those of one invocation.
+/// Passes of a single invocation.
 constexpr bool is_single_pass(Pass pass)
 {
     return unit_of(pass) == PassUnit::single || unit_of(pass) == PassUnit::bottom;
 }
 
-/// Values of one block of a reduction.
+/// Values in one block of a reduction.
 constexpr std::uint32_t block_size = 256;
 
-/// How the levels of a tree of measures lie one after the other: level 0 has a value per block of nodes.
+/// The levels of a tree of measures, stored one after the other. Level 0 has one value per block of nodes.
 struct MeasureTree {
     explicit MeasureTree(std::uint32_t node_count);
     struct Level {
         std::uint32_t first = 0, count = 0;
     };
-    std::vector<Level> levels;  ///< the last has one value: the result
+    std::vector<Level> levels;  ///< the last level has one value: the result
     std::uint32_t value_count = 0;
 };
 

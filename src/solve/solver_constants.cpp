@@ -11,13 +11,12 @@
 namespace pliant {
 namespace {
 
-/// The limits of ACAD are no stiffer than the step can solve: 1 / (1 / K + a) with the compliance a.
-///   Steps that are corrected: K = 300 m / dt^2. A node that comes with the length of a spring a step is
-///   stopped within 6 % of it.
-///   Implicit steps, longer: K is that of SpringLimits::firm_limit. A pull passes through all springs
-///   across the cloth in a step.
-/// 1e6 N/m on soft springs is 10,000 m / dt^2 and more. What a solve leaves open of that wins energy, and the
-/// cloth boils.
+/// ACAD's limits are no stiffer than a step can solve: 1 / (1 / K + a) with the compliance a.
+///   Corrected steps: K = 300 m / dt^2. A node that approaches at one spring length per step is stopped
+///   within 6 % of it. Implicit, longer steps: K is that of ClothModel::firm_limit. A pull then passes
+///   through all springs across the cloth in one step.
+/// For soft springs 1e6 N/m would be 10,000 m / dt^2 and more. The error of such a solve gains energy, and
+/// the cloth jitters.
 template <class T>
 void soften_limits_of_acad(SolverConstants<T>& c, const ClothModel& model, double step_length)
 {
@@ -33,7 +32,7 @@ void soften_limits_of_acad(SolverConstants<T>& c, const ClothModel& model, doubl
     }
 }
 
-/// What corrects the steps of ACAD (kernels/acad.kernel.glsl).
+/// Constants of ACAD's correction (kernels/acad.kernel.glsl).
 template <class T>
 void set_acad(SolverConstants<T>& c, const ClothModel& model)
 {
@@ -41,9 +40,9 @@ void set_acad(SolverConstants<T>& c, const ClothModel& model)
     const AcadOptions& acad = model.plan.acad;
     const bool to_rest = acad.target == AcadTarget::rest;
     const double hold = acad.deactivate_at.value_or(acad.activate_at);
-    // A limit may act before the threshold is reached in this very step; a constraint to rest length must
-    // not. From half of the threshold on, wrinkles would be marked all over the cloth (docs/notes).
-    // A step that corrects much marks more: those that it may reach.
+    // A limit may act before the threshold is reached within this step; a constraint to rest length must not.
+    // From half of the threshold on, wrinkles would be marked all over the cloth (docs/notes). A large
+    // correction marks more springs: those that it may reach.
     constexpr double near_part = 0.8;
     const double near = to_rest ? acad.activate_at : near_part * acad.activate_at;
     const auto above = [&](double stretch) { return number((1 + stretch) * (1 + stretch)); };
@@ -59,8 +58,8 @@ void set_acad(SolverConstants<T>& c, const ClothModel& model)
     c.acad_near_above2 = above(near);
     c.acad_near_below2 = below(near);
     c.acad_reach = number(to_rest ? 0 : 1);
-    c.has_damping = false;  // springs have damped in their own step
-    // The springs' own forces have acted already. Below its limit nothing holds a spring.
+    c.has_damping = false;  // springs were damped in their own step
+    // The springs' own forces have already acted. Below its limit no force acts on a spring.
     for (auto& curve : c.curves) curve.reach = curve.limit;
 }
 
@@ -115,20 +114,21 @@ SolverConstants<T> make_solver_constants(const ClothModel& model, double step_le
     if (model.plan.corrects_steps()) set_acad(c, model);
     std::copy(std::begin(step.rest_lengths), std::end(step.rest_lengths), c.rest_lengths);
     const NewtonMultigridOptions& newton = model.plan.newton;
-    // Of the inertia m / dt^2 of a node: 100 keeps what a step presses in to a hundredth of its way, and lets
-    // a node that lies still stay in touch when Newton's method moves it by a hundredth of g dt^2.
+    // In m / dt^2, the inertia of a node. 100 limits the penetration per step to a hundredth of the
+    // displacement. It also keeps a resting node in contact when Newton's method moves it by a hundredth of g
+    // dt^2.
     constexpr double by_mass = 100;
     c.contact_is_by_mass = !(newton.contact_stiffness > 0);
     c.contact_stiffness = number(c.contact_is_by_mass ? by_mass : newton.contact_stiffness);
     c.slip = number(newton.friction_speed * step_length);
-    // BDF2 does not damp away what a step leaves.
+    // BDF2 does not damp the residual of a step.
     const double part = model.plan.is_second_order() ? 1.0 / 3 : 1;
     c.linear_tolerance = number(newton.linear_tolerance * part);
     c.newton_tolerance = number(newton.newton_tolerance * part);
     c.enough_iterations = number(enough_iterations(model));
     if (step_length > 0 && !model.plan.corrects_steps()) {
         const double softest = model.limits.softest(step_length);
-        // A spring that a corner hangs by carries what twenty others do.
+        // A spring at a pinned corner bears the load of about twenty others.
         constexpr double stiffest = 20;
         c.softest_limit = number(softest);
         c.stiffest_limit = number(stiffest * softest);
@@ -143,8 +143,8 @@ SolverConstants<T> make_solver_constants(const ClothModel& model, double step_le
         c.softest_held_limit = number(SpringLimits::held_limit * softest);
         if (c.remembers[0]) c.softest_held = number(model.limits.softest_held(step_length));
     }
-    // Chebyshev's points on the upper part of the spectrum of D^-1 A, which the smoother has to take care of:
-    // the higher its degree, the larger the part that it can. Measured by V-cycles (docs/notes).
+    // Chebyshev's points on the upper part of the spectrum of D^-1 A, which the smoother must damp: a higher
+    // degree covers a larger part. Chosen by counting V-cycles (docs/notes).
     const double greatest = model.springs.spectrum_end;
     constexpr std::uint32_t high_degree = 5;
     const double least = greatest / (newton.smoothing < high_degree ? 8 : 32);
@@ -201,7 +201,7 @@ SumParts::SumParts(const ClothModel& model, const Hierarchy& hierarchy)
             default: return cloth.rows * sum_groups(cloth.columns);
         }
     };
-    // Passes of a step that share a slot are over the same units.
+    // Passes of a step that share a slot have the same units.
     std::vector<Call> calls;
     append_frame({&model, 1}, 1, 0, calls);
     for (const Call& call : calls) {

@@ -1,4 +1,4 @@
-// Constants of a step in the numbers of a kernel: colliders, forces, a hand.
+// Constants of a step in a kernel's number type: colliders, forces, a hand.
 #pragma once
 
 #include <cstdint>
@@ -10,22 +10,21 @@
 
 namespace pliant {
 
-/// A hand that pulls at a node by a spring, in the numbers of `grabbed_velocity` of
-/// laws/integration.law.glsl.
+/// A hand that pulls a node by a spring: parameters of `grabbed_velocity` in laws/integration.law.glsl.
 struct GrabInput {
     std::uint32_t cloth = 0, node = 0;
     Vec3d target;               ///< m, in the cloth's coordinates
     double pull = 0, hold = 0;  ///< 1/s, and without unit
 };
 
-/// A collider as a cloth with coordinates of its own sees it.
+/// A collider in the coordinates of a cloth with its own origin.
 inline PlacedCollider seen_from(PlacedCollider placed, Vec3d origin)
 {
     placed.centre = placed.centre - origin;
     return placed;
 }
 
-/// A collider in the numbers of a kernel.
+/// A collider in a kernel's number type.
 template <class T>
 typename Laws<T>::Collider make_collider(const PlacedCollider& placed)
 {
@@ -47,7 +46,7 @@ typename Laws<T>::Collider make_collider(const PlacedCollider& placed)
     return collider;
 }
 
-/// Constants of a step in the numbers of a kernel.
+/// Constants of a step in a kernel's number type.
 template <class T>
 struct StepConstants {
     T dt{}, decay{}, thickness{};
@@ -58,9 +57,10 @@ struct StepConstants {
 
     T inverse_dt{};  ///< 1/s
     std::span<const VolumeGoal> goals =
-        {};  ///< of a body's parts, a row for each step of the frame or one for all
+        {};  ///< by part of a body; one row for each step of the frame, or one for all
 
-    std::span<const Vec3> attached = {};  ///< m, places of attached nodes, a row for each step of the frame
+    std::span<const Vec3> attached = {};  ///< m, positions of attached nodes, a row for each step of the
+                                          ///< frame
 
     std::uint32_t grabbed_node = 0;  ///< see GrabInput
     Vector3<T> grab_target{};

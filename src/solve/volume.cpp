@@ -12,7 +12,7 @@ void append_volume_step(const ClothModel& bodies, std::uint32_t index, std::uint
     append(Pass::volume_gather);  // forces, the gradient, both sides of eq. (14)
     append(Pass::volume_step);    // the multiplier, integration, contact
     append_attachments(bodies, index, step, parity, calls);
-    append(Pass::volume_cubic);  // what contact and pins have made of the volume
+    append(Pass::volume_cubic);  // the volume after contact and pins
     append(Pass::volume_correct);
 }
 

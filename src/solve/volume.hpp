@@ -1,4 +1,4 @@
-// Soft bodies: springs, and one constraint for the volume of each, as sequences of passes; it knows no
+// Soft bodies: springs, and one volume constraint per body, as sequences of passes, independent of the
 // backend.
 #pragma once
 
@@ -10,8 +10,8 @@
 
 namespace pliant {
 
-/// Appends one symplectic Euler step of the bodies of a model with their volume constraint, from the state
-/// copy `parity` to the other.
+/// Appends one symplectic Euler step of the bodies of a model, from the state copy `parity` to the other,
+/// with the volume constraint if the model has one.
 void append_volume_step(const ClothModel& bodies, std::uint32_t index, std::uint32_t step,
                         std::uint32_t parity, std::vector<Call>& calls);
 

@@ -1,5 +1,5 @@
-// ACAD against the methods that it stands between, and what steps, stiffness and masses every method
-// bears.
+// ACAD compared with the methods mass_spring and constraint, and the range of steps, stiffnesses and masses
+// in which every method is stable.
 #include <algorithm>
 #include <cmath>
 
@@ -10,18 +10,19 @@
 namespace pliant::tool {
 namespace {
 
-/// N/m, of all classes: held at two corners 32 x 32 nodes stretch springs beyond 10 %, held at an edge they
-/// do not.
+/// N/m, of all classes: a sheet of 32 x 32 nodes stretches springs beyond 10 % if it hangs from two corners,
+/// but not if it hangs from an edge.
 constexpr double sheet_stiffness = 400;
 
-/// A sheet of springs alone, 1 m x 1 m, let go from the horizontal.
+/// A sheet of springs alone, 1 m x 1 m, released from the horizontal.
 Scene hung_springs(std::uint32_t n, bool by_corners)
 {
     Scene scene;
     Cloth cloth = Cloth::sheet({.rows = n, .columns = n, .width = 1, .height = 1, .density = 0.3});
     cloth.springs = {{sheet_stiffness, 0}, {sheet_stiffness, 0}, {sheet_stiffness, 0}};
     if (by_corners)
-        cloth.pin(Corner::top_left).pin(Corner::top_right);  // which carry everything: springs there give way
+        cloth.pin(Corner::top_left).pin(Corner::top_right);  // which bear the whole sheet, so that springs
+                                                             // there stretch
     else
         cloth.pin(Edge::top);
     scene.add(std::move(cloth));
@@ -34,7 +35,7 @@ std::uint32_t steps_of(const Scene& scene, const SimulationOptions& options)
     return Simulation(scene, options).steps_per_frame();
 }
 
-/// A sheet held at an edge, and its middle drawn to one side by part of a spring's length.
+/// A sheet pinned at an edge, its middle displaced to one side by part of a spring's length.
 Scene pulled_springs(std::uint32_t n)
 {
     constexpr double part = 0.75, seconds = 0.1;
@@ -46,7 +47,7 @@ Scene pulled_springs(std::uint32_t n)
     return scene;
 }
 
-/// What limits cost: while none is needed, or while few are, around a node. The two methods take turns,
+/// The cost of limits: while none is needed, or while few are, around one node. The two methods alternate,
 /// frame by frame.
 BenchCase readiness_case(const BenchOptions& options, bool pulled)
 {
@@ -67,7 +68,9 @@ BenchCase readiness_case(const BenchOptions& options, bool pulled)
                     const double other = milliseconds_to_advance(acad, frame);
                     stretch = larger(stretch, acad.report().measures.max_stretch);
                     const bool counts = pulled ? acad.report().solver.active_max > 0 : k >= 2;
-                    if (!counts) continue;  // programs are made and memory is fetched; nothing is pulled yet
+                    if (!counts)
+                        continue;  // warm-up: programs are made, memory is touched; nothing is
+                                   // pulled yet
                     of_springs.push_back(one / scene.time.substeps);
                     of_acad.push_back(other / scene.time.substeps);
                     ratios.push_back(other / one);
@@ -89,7 +92,7 @@ BenchCase readiness_case(const BenchOptions& options, bool pulled)
             }};
 }
 
-/// Figure 10 of the cloth paper: ACAD against all springs as constraints, on the same solver.
+/// Figure 10 of the cloth paper: ACAD compared with all springs as constraints, with the same solver.
 BenchCase figure_10_case(const BenchOptions& options, bool by_corners)
 {
     const std::uint32_t n = options.quick ? 12 : 32;
@@ -105,7 +108,7 @@ BenchCase figure_10_case(const BenchOptions& options, bool by_corners)
                     const char* name;
                 };
                 constexpr int least_frames = 10;
-                constexpr double patience = 20;  // s, for constraints alone take seconds for a frame
+                constexpr double patience = 20;  // s; constraints alone take seconds per frame
                 double constraints_alone = 0;
                 for (const Way& way :
                      {Way{Method::constraint, Solver::paper, "constraint, solver paper"},
@@ -150,7 +153,7 @@ struct StabilityPoint {
     double step, stiffness, node_mass;  ///< s, N/m, kg
 };
 
-/// A sheet that falls on a sphere and slides off to the ground.
+/// A sheet that falls on a sphere and slides to the ground.
 Scene stability_scene(const StabilityPoint& point, std::uint32_t n)
 {
     Scene scene;

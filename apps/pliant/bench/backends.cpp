@@ -1,5 +1,5 @@
-// One sheet on everything that can step it here: every instruction set, the reference, every Vulkan device;
-// with fast math, and several steps in a dispatch, too.
+// One sheet on everything here that can step it: every instruction set, the reference, every Vulkan device;
+// also with fast math, and with several steps per dispatch.
 #include <memory>
 
 #include "backend/cpu/kernels.hpp"
@@ -51,7 +51,7 @@ std::vector<SimulationOptions> everything(const SimulationOptions& given)
 void measure_backends(const std::string& subject, Scene scene, double stiffness, const BenchOptions& options,
                       BenchTable& table)
 {
-    constexpr std::uint32_t steps = 16;  // the slowest take milliseconds for one
+    constexpr std::uint32_t steps = 16;  // the slowest take milliseconds per step
     scene.time.frame_rate *= static_cast<double>(scene.time.substeps) / steps;
     scene.time.substeps = steps;
     std::vector<std::unique_ptr<Entrant>> entrants;
@@ -75,7 +75,7 @@ void measure_backends(const std::string& subject, Scene scene, double stiffness,
         row.real_time_factor = 1000 * row.step / row.time->median;
         row.bytes = bytes_per_node_and_step(model, simulation.backend());
         if (simulation.backend() == Backend::reference || with.fast_math)
-            table.add(row);  // in double, or as each machine likes: its bits are others
+            table.add(row);  // in double, or with fast math: the bits differ
         else
             table.add(row, "same bits as the first", *row.state_hash == bits ? 1 : 0, "1", at_least(1));
     }

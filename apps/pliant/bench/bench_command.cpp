@@ -41,7 +41,7 @@ void check_files(const BenchOptions& options)
                         "two of --json, --csv and --plot name " + name + "; give each its own");
 }
 
-/// Where the steps run, and the machine around it.
+/// The device of the steps, and the machine.
 std::string machine_name(const BenchOptions& options)
 {
     const Simulation probe(hanging_sheet(4, 1e-6), options.simulation);
@@ -50,7 +50,7 @@ std::string machine_name(const BenchOptions& options)
            std::to_string(std::thread::hardware_concurrency()) + " cores";
 }
 
-/// Runs the cases of a suite. One that the device cannot hold or run is told, and the others go on.
+/// Runs the cases of a suite. A case that the device cannot run is reported and skipped.
 void measure(const char* suite, const std::vector<BenchCase>& cases, BenchTable& table, std::size_t& failures)
 {
     table.begin_suite(suite);
@@ -86,10 +86,10 @@ int bench_command(const BenchOptions& options)
             throw Error(ErrorKind::bad_usage,
                         std::string("--sizes is for mss, constraint and volume: the suite ") + suite.name +
                             " has cases of one size; leave it out");
-    // Refused before the work is done.
+    // Opened first, so that errors come before the work.
     const auto json = file_of(options.json_file), csv = file_of(options.csv_file),
                plot = file_of(options.plot_file);
-    std::vector<std::vector<BenchCase>> cases;  // by suite; what is wrong with the options shows here
+    std::vector<std::vector<BenchCase>> cases;  // by suite; errors in the options show here
     for (const Suite& suite : suites) {
         cases.emplace_back();
         if (options.suite != "all" && options.suite != suite.name) continue;
@@ -100,7 +100,7 @@ int bench_command(const BenchOptions& options)
     }
     const BenchMachine machine{machine_name(options), options.quick};
     std::printf("pliant %s on %s%s\n\n", PLIANT_VERSION, machine.name.c_str(),
-                options.quick ? "; --quick: these figures say nothing" : "");
+                options.quick ? "; --quick: these figures are not meaningful" : "");
     std::fflush(stdout);
 
     BenchTable table;

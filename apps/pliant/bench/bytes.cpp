@@ -7,11 +7,11 @@ namespace {
 struct Layout {
     double vector;        ///< of a node
     double spring_force;  ///< a vector of a spring
-    double inverse_mass;  ///< 0 where it travels in a vector
+    double inverse_mass;  ///< 0 if it is stored in a vector's fourth number
     double number;        ///< a rest length, a stiffness
-    double spring;        ///< what a spring is, without its ends
-    double entry;         ///< of a node's list of forces
-    double record;        ///< two vectors side by side for who gathers; 0 where vectors are gathered
+    double spring;        ///< a spring's parameters, without its ends
+    double entry;         ///< of a node's list of spring forces
+    double record;        ///< two vectors side by side, for gathers; 0 if vectors are gathered from planes
 };
 constexpr double index = 4;
 
@@ -39,7 +39,7 @@ double bytes_per_node_and_step(const ClothModel& model, Backend backend)
         return gathered + springs * (2 * index + layout.spring + layout.spring_force)         // spring_force
                + springs * (2 * layout.entry + layout.spring_force) + node + state + record;  // list_step
 
-    const double own = record > 0 ? node : layout.inverse_mass;  // what is not among the gathered
+    const double own = record > 0 ? node : layout.inverse_mass;  // own data that is not gathered
     const double ring = 2 * springs * (index + layout.number);   // each spring from both its ends
     if (!model.body->constrained) return own + gathered + ring + state + record;  // ring_step
     const double fans = static_cast<double>(model.body->fans.entries.size()) / nodes * index;

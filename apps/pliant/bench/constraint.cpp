@@ -1,4 +1,5 @@
-// The method constraint: iterations of its linear systems, how cloth hangs by it, and what a frame costs.
+// The method constraint: iterations of its linear systems, the motion of hanging cloth, and the cost of a
+// frame.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -33,7 +34,7 @@ void remember_stretch(const Simulation& simulation, double& stretch)
 
 // --- linear systems -------------------------------------------------------------------------------
 
-/// Six frames from the start: smooth, in motion, and under load.
+/// State after six frames: smooth, in motion, and under load.
 struct DrapedState {
     DrapedState(const Scene& scene, const SimulationOptions& options) : simulation(scene, options)
     {
@@ -68,7 +69,7 @@ BenchCase cycles_case(const BenchOptions& options, const std::string& subject,
                 const Scene made = scene();
                 DrapedState state(made, options.simulation);
                 BenchRow row = table.row(state.simulation, subject, 1 / compliance, state.stretch);
-                constexpr std::uint32_t judged = 3;  // what fewer cycles of it cost in time, the table shows
+                constexpr std::uint32_t judged = 3;  // the table also shows the time of fewer cycles
                 for (const std::uint32_t smoothing : {1u, judged, 8u}) {
                     const auto solution =
                         state.system(made, Preconditioner::multigrid, smoothing, options.simulation)
@@ -116,7 +117,7 @@ void add_files(const BenchOptions& options, std::vector<BenchCase>& cases)
                 [=] { return hanging_file(file, compliance); }, compliance, 25));
 }
 
-/// The same system by the three preconditioners, in turn.
+/// The same system with the three preconditioners, alternating.
 void add_preconditioners(const BenchOptions& options, std::vector<BenchCase>& cases)
 {
     const std::uint32_t n = options.quick ? 24 : 128;
@@ -132,7 +133,7 @@ void add_preconditioners(const BenchOptions& options, std::vector<BenchCase>& ca
              struct Way {
                  Preconditioner preconditioner;
                  const char* name;
-                 std::uint32_t between;  // a look at a device costs more than an iteration without cycles
+                 std::uint32_t between;  // on a device a test costs more than an iteration without V-cycles
                  double bar;
                  std::vector<double> milliseconds = {};
                  LinearBenchmark::Solution solution = {};
@@ -167,7 +168,7 @@ void add_preconditioners(const BenchOptions& options, std::vector<BenchCase>& ca
 
 // --- hanging --------------------------------------------------------------------------------------
 
-/// What happens to a sheet that is let go.
+/// The motion of a sheet after its release.
 struct Fall {
     std::array<double, 3> heights{};  ///< m, of the middle of the free edge after 15, 30 and 45 frames
     double energy = 0;                ///< J, after 1 s
@@ -199,7 +200,7 @@ Fall let_fall(Simulation& simulation, std::uint32_t n, int frames)
     return fall;
 }
 
-/// Runs that are converged, to compare with; each is made once, when first asked for.
+/// Converged reference runs; each is made on first use.
 class ConvergedFalls {
 public:
     explicit ConvergedFalls(const BenchOptions& options) : options_(options) {}
@@ -225,8 +226,8 @@ private:
 struct HangingSize {
     std::uint32_t n;
     double stiffness, density;
-    std::vector<double> frames_per_second;  ///< asked for: to be useful, and to be fast
-    /// 0 is the default. What is heavier or finer takes more to swing as it should, and costs more.
+    std::vector<double> frames_per_second;  ///< bars: for a useful and for a fast frame rate
+    /// 0: the default. Heavier or finer sheets need more iterations to swing correctly, and cost more.
     std::uint32_t newton_iterations = 0;
 };
 
@@ -290,7 +291,7 @@ void add_hanging(const BenchOptions& options, std::vector<BenchCase>& cases)
     for (const HangingSize& size : sizes) cases.push_back(hanging_case(options, size, converged));
 }
 
-/// Air takes the swing, and the sheet comes to rest.
+/// Air damps the swing, and the sheet comes to rest.
 void add_rest(const BenchOptions& options, std::vector<BenchCase>& cases)
 {
     const std::uint32_t n = options.quick ? 16 : 128;
@@ -315,7 +316,7 @@ void add_garments(const BenchOptions& options, std::vector<BenchCase>& cases)
 
 // --- one core -------------------------------------------------------------------------------------
 
-/// Measured beside Pliant on one machine on 2026-11-30, one thread: NvCloth took 15.9 ms for a frame of the
+/// Measured beside Pliant on one machine on 2026-11-30, one thread: NvCloth took 15.9 ms per frame of the
 /// sheet of 96 x 96 nodes and 1 kg, at 5.6 % of stretch (80 substeps); Pliant took 7.8 ms, at 0.22 %.
 void add_one_thread(BenchOptions options, std::vector<BenchCase>& cases)
 {
@@ -342,8 +343,8 @@ void add_one_thread(BenchOptions options, std::vector<BenchCase>& cases)
 
 // --- a GPU ----------------------------------------------------------------------------------------
 
-/// Steps of one linear system each, or up to three where one does not solve the step, each as exactly as
-/// asked: a million nodes, six million constraints, where there is a GPU to hold them.
+/// Steps of one linear system each, or up to three if one does not solve the step, each to the given
+/// tolerance: a million nodes, six million constraints, if a GPU has the memory.
 void add_million(const BenchOptions& options, std::vector<BenchCase>& cases)
 {
     const auto devices = list_devices();

@@ -1,5 +1,4 @@
-// The bandwidth of copying, which steps are held against: by threads, or by a device between two of its
-// buffers.
+// The bandwidth of copying, for comparison with steps: by threads, or between two buffers of a device.
 #include <algorithm>
 #include <cstring>
 

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// With seven digits, more than can be measured; JSON knows finite numbers alone.
+/// Seven digits, more than can be measured; null unless finite, since JSON has only finite numbers.
 Json number(double value)
 {
     if (!std::isfinite(value)) return nullptr;
@@ -39,7 +39,7 @@ Json fields_of(const BenchMachine& machine)
     return f;
 }
 
-/// The fields of a row in the order of both files; a null where a field makes no sense.
+/// The fields of a row in the order of both files; null for fields that do not apply.
 Json fields_of(const BenchRow& row)
 {
     const auto optional = [](const std::optional<double>& value) {

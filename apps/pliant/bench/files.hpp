@@ -11,12 +11,12 @@ namespace pliant::tool {
 
 struct BenchMachine {
     std::string name;    ///< processor or device, and cores
-    bool quick = false;  ///< figures say nothing
+    bool quick = false;  ///< the figures are not meaningful
 };
 
-/// Absent keys are those that make no sense for a row; docs/performance.md has their meaning.
+/// Keys that do not apply to a row are absent; docs/performance.md explains them.
 void write_json(AtomicFile& file, const BenchMachine& machine, std::span<const BenchRow> rows);
-/// One line for each number that was measured, with all of its row; one for a row without.
+/// One line per measured number, with its whole row; one line for a row without any.
 void write_csv(AtomicFile& file, const BenchMachine& machine, std::span<const BenchRow> rows);
 /// ns per node and step over nodes, both logarithmic: a line for each case, backend and number of threads
 /// (SVG).

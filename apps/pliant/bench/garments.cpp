@@ -1,4 +1,4 @@
-// Pieces of cloth that are no sheets, by the method constraint: each beside a sheet of as many nodes.
+// Garments with the method constraint, each compared with a sheet of as many nodes.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -14,14 +14,14 @@ struct Garment {
     const char* name;
     Scene (*of_nodes)(std::uint32_t);
 };
-constexpr double sheet_compliance = 1e-6;  // m/N, as all have it
+constexpr double sheet_compliance = 1e-6;  // m/N, the same for all
 Scene square_of_nodes(std::uint32_t nodes) { return hanging_mesh(nodes, sheet_compliance); }
 constexpr Garment garments[] = {{"disc", &hanging_disc},
                                 {"irregular square", &square_of_nodes},
                                 {"tube", &hanging_tube},
                                 {"T-shirt", &hanging_shirt}};
 
-/// What hangs, and its frames.
+/// A hanging piece, and its frames.
 struct Hanging {
     Hanging(const Scene& scene, const SimulationOptions& options) : simulation(scene, options) {}
     void advance()
@@ -35,7 +35,7 @@ struct Hanging {
     double stretch = 0;
 };
 
-/// Both fall in turn, frame by frame, so that what else the machine does falls on both.
+/// Both simulations alternate, frame by frame, so that other load on the machine affects both.
 BenchCase garment_case(const BenchOptions& options, const Garment& garment, std::uint32_t nodes)
 {
     const std::string subject =

@@ -41,7 +41,8 @@ double SteppedSimulation::all_measures() const
 
 double SteppedSimulation::milliseconds_of_measures() const
 {
-    return all_measures() / static_cast<double>(simulation_.report().frames + 1);  // and those of the start
+    return all_measures() / static_cast<double>(simulation_.report().frames + 1);  // including those of the
+                                                                                   // start
 }
 
 double SteppedSimulation::milliseconds_per_step()

@@ -1,5 +1,5 @@
-// How the steps of `pliant bench` are timed: those that are compared take turns, so that what else the
-// machine does falls on all of them, and every ratio is the median of those of the turns.
+// Timing of `pliant bench`: compared steps alternate, so that other load on the machine affects all of them,
+// and every ratio is the median over the turns.
 #pragma once
 
 #include <functional>
@@ -15,15 +15,16 @@ namespace pliant::tool {
 
 constexpr double frame = 1.0 / 60;  ///< s, of scenes that are advanced frame by frame
 
-/// One way of doing something. `run` does some of it and returns a number, the same unit every time.
+/// One of the compared implementations. `run` does some work and returns a number, in the same unit every
+/// time.
 struct Contestant {
     std::function<double()> run;
     std::vector<double> samples = {};
 };
 
-/// A turn that does not count (memory is fetched, programs are made), then `repeats` that do.
+/// One warm-up turn (memory, programs), then `repeats` measured turns.
 void take_turns(std::span<Contestant* const> contestants, int repeats);
-/// Median over the turns of a's sample over b's.
+/// The median over the turns of a's sample divided by b's.
 double ratio_of(const Contestant& a, const Contestant& b);
 
 /// A simulation that is advanced by whole frames of `scene.time.substeps` steps.
@@ -31,13 +32,13 @@ class SteppedSimulation {
 public:
     SteppedSimulation(const Scene& scene, const SimulationOptions& options);
 
-    /// Advances by a frame; ms for a step of it. The measures of the frame are not counted: they belong to
-    /// frames, not to steps, of which a frame may have one or a thousand.
+    /// Advances by a frame; returns ms per step. Excludes the measures of the frame: their cost is per frame,
+    /// and a frame may have one step or a thousand.
     double milliseconds_per_step();
-    double milliseconds_of_measures() const;  ///< of a frame, mean of all so far
+    double milliseconds_of_measures() const;  ///< per frame, mean so far
 
     Simulation& simulation() { return simulation_; }
-    double stretch() const { return stretch_; }  ///< largest at the end of a frame
+    double stretch() const { return stretch_; }  ///< maximum at the ends of frames
 
 private:
     double all_measures() const;  ///< ms
@@ -46,14 +47,13 @@ private:
     Simulation simulation_;
 };
 
-/// Copies memory where a simulation runs: by its threads, or on its device. What is read and what is written
-/// count.
+/// Copies memory where a simulation runs: with its threads, or on its device. Bytes read and written count.
 class MemoryCopy {
 public:
     virtual ~MemoryCopy() = default;
     virtual double gigabytes_per_second() = 0;
 };
-/// `bytes` are larger than the caches.
+/// `bytes`: more than the caches hold.
 std::unique_ptr<MemoryCopy> make_memory_copy(Simulation& simulation, std::size_t bytes);
 
 }  // namespace pliant::tool

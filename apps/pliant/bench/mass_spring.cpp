@@ -1,5 +1,5 @@
-// The mass-spring step: sheets from 1,024 to 7.8 million nodes, a mesh by its list of springs, and the memory
-// of a node.
+// Mass-spring steps: sheets from 1,024 to 7.8 million nodes, a mesh as a list of springs, and memory per
+// node.
 #include <cmath>
 
 #include "bench/memory.hpp"
@@ -11,10 +11,10 @@ namespace {
 
 constexpr double structural_stiffness = 1000;  // N/m
 constexpr std::uint64_t largest = 7'817'616;
-constexpr std::uint64_t most_for_bullet = 300'000;  // nodes; beyond them a turn takes seconds
+constexpr std::uint64_t most_for_bullet = 300'000;  // nodes; for more a turn takes seconds
 
-/// The same cloth at all sizes, larger and not finer, so that their steps are as long and mean the same. It
-/// is turned, so that no coordinate is a round number, and falls from two of its corners.
+/// The same cloth at all sizes, larger instead of finer, so that step lengths are equal and comparable. It is
+/// rotated, so that no coordinate is a round number, and hangs from two corners.
 Cloth sheet(std::uint32_t n)
 {
     constexpr double spacing = 1.0 / 127;
@@ -48,7 +48,7 @@ BenchCase sheet_case(const BenchOptions& options, std::uint64_t nodes, bool with
             }};
 }
 
-/// Forces by a list of springs: edges, and across every edge a bend spring.
+/// Forces by a list of springs: the edges, and a bend spring across every edge.
 BenchCase mesh_case(const BenchOptions& options, std::uint32_t vertices)
 {
     return {"mesh, spring list, " + with_commas(vertices) + " vertices", [=](BenchTable& table) {
@@ -73,7 +73,7 @@ BenchCase backends_case(const BenchOptions& options)
             }};
 }
 
-/// What a node more costs: two sheets, and the difference of what they hold.
+/// Memory per node: the difference between two sheets.
 BenchCase memory_case(const BenchOptions& options)
 {
     const std::uint32_t small = options.quick ? 64 : 256, large = options.quick ? 128 : 1024;

@@ -1,4 +1,4 @@
-// Memory that a simulation holds.
+// The memory of a simulation.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@ namespace pliant::tool {
 
 /// Bytes that the process has allocated and not freed.
 std::uint64_t memory_in_use();
-/// Bytes that a simulation holds where it runs: on its device, or in the memory that was not in use `before`
-/// it.
+/// Bytes of a simulation on its device, or in host memory beyond `before`, the bytes in use before it was
+/// made.
 std::uint64_t memory_of(Simulation& simulation, std::uint64_t before);
 
 }  // namespace pliant::tool

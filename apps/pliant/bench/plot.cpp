@@ -1,4 +1,4 @@
-// The plot of `pliant bench`: an SVG by itself, without scripts or fonts of its own.
+// The plot of `pliant bench`: a self-contained SVG, without scripts or fonts.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -11,7 +11,7 @@ namespace pliant::tool {
 namespace {
 
 struct Point {
-    double nodes, least, median, most;  ///< the others ns per node and step
+    double nodes, least, median, most;  ///< least, median and most: ns per node and step
 };
 struct Series {
     std::string name;
@@ -41,7 +41,7 @@ std::vector<Series> series_of(std::span<const BenchRow> rows)
     return all;
 }
 
-/// The 1, 2 or 5 times a power of ten that is nearest to a value, above or below it.
+/// The nearest 1, 2 or 5 times a power of ten above or below a value.
 double round_number(double value, bool up)
 {
     const double decade = std::pow(10, std::floor(std::log10(value)));
@@ -57,7 +57,7 @@ double round_number(double value, bool up)
 
 /// Logarithmic, between round numbers.
 struct Axis {
-    double low = 0, high = 0, from = 0, to = 0;  ///< values, and where they are drawn
+    double low = 0, high = 0, from = 0, to = 0;  ///< range of values, and of their positions
 
     void cover(double value)
     {
@@ -65,7 +65,7 @@ struct Axis {
         low = low > 0 ? std::min(low, below) : below;
         high = std::max(high, above);
     }
-    void end()  ///< at least a factor of ten, and something when nothing was covered
+    void end()  ///< extends it to at least a factor of ten, also if it is empty
     {
         if (low <= 0) low = 1;
         high = std::max(high, 10 * low);
@@ -96,7 +96,7 @@ std::string escaped(const std::string& text)
     return result;
 }
 
-// Told apart by eyes that do not tell red from green (Okabe and Ito 2008, Color Universal Design).
+// Distinguishable with colour blindness (Okabe and Ito 2008, Color Universal Design).
 constexpr const char* colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                    "#e69f00", "#56b4e9", "#000000"};
 
@@ -202,7 +202,7 @@ private:
 void write_plot(AtomicFile& file, const BenchMachine& machine, std::span<const BenchRow> rows)
 {
     Plot(file.stream(), series_of(rows))
-        .write(machine.name + (machine.quick ? "; --quick: these figures say nothing" : ""));
+        .write(machine.name + (machine.quick ? "; --quick: these figures are not meaningful" : ""));
     file.commit();
 }
 

@@ -30,7 +30,7 @@ Scene hung(Cloth cloth, double compliance)
     return scene;
 }
 
-/// The vertex next to a place of the mesh, m.
+/// The vertex nearest to a position, m.
 std::uint32_t vertex_at(const SurfaceMesh& mesh, Vec3d place)
 {
     const auto distance2 = [&](Vec3 x) {
@@ -42,15 +42,14 @@ std::uint32_t vertex_at(const SurfaceMesh& mesh, Vec3d place)
     return static_cast<std::uint32_t>(nearest - mesh.vertices.begin());
 }
 
-/// As many parts as `nodes` ask for when one part makes `per_part2` nodes, and the number goes with its
-/// square.
+/// The number of parts for about `nodes` nodes, if a number of n parts gives per_part2 n^2 nodes.
 std::uint32_t parts_of(std::uint32_t nodes, double per_part2)
 {
     return static_cast<std::uint32_t>(std::max(1l, std::lround(std::sqrt(nodes / per_part2))));
 }
 
-/// Held at the vertices next to two places of the standing mesh, and lying, so that it falls as the others
-/// do.
+/// Pinned at the vertices nearest to two positions of the upright mesh, then laid horizontally, so that it
+/// falls like the others.
 Scene hung_at(SurfaceMesh mesh, Vec3d left, Vec3d right)
 {
     const std::uint32_t first = vertex_at(mesh, left), second = vertex_at(mesh, right);
@@ -95,7 +94,7 @@ Scene hanging_disc(std::uint32_t nodes)
 Scene hanging_tube(std::uint32_t nodes)
 {
     TubeOptions tube;
-    const double per_row = double(tube.segments) / tube.rows;  // of triangles of equal sides
+    const double per_row = double(tube.segments) / tube.rows;  // for equilateral triangles
     tube.rows = std::max(2u, parts_of(nodes, per_row));
     tube.segments = std::max(3u, nodes / tube.rows);
     return hung_at(tube_mesh(tube), {-tube.radius, tube.length / 2, 0}, {tube.radius, tube.length / 2, 0});

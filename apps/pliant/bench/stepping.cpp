@@ -19,7 +19,7 @@ namespace {
 
 constexpr int repeats = 7;
 
-/// A simulation and the copies beside it.
+/// A simulation and its memory copy.
 struct Pliant {
     Pliant(const Scene& scene, const SimulationOptions& options, std::size_t copied)
         : stepped(scene, options), copy(make_memory_copy(stepped.simulation(), copied))
@@ -32,7 +32,7 @@ struct Pliant {
     Contestant step, bandwidth;
 };
 
-/// Makes `count` steps of a baseline when it is called, and returns ms for one.
+/// When called, makes `count` steps of a baseline and returns ms per step.
 template <class Step>
 std::function<double()> timed(std::uint32_t count, Step step)
 {
@@ -45,7 +45,7 @@ std::function<double()> timed(std::uint32_t count, Step step)
     };
 }
 
-/// Baselines take fewer steps in a turn: they are slower, and need no more to be timed.
+/// Baselines make fewer steps per turn: they are slower, and that suffices for timing.
 std::function<double()> serial_step(const Scene& scene, float dt)
 {
     const std::uint32_t count = std::max(1u, scene.time.substeps / 8);
@@ -66,7 +66,7 @@ std::function<double()> bullet_step(const Scene& scene, float dt)
     return timed(std::max(1u, scene.time.substeps / 32), [body, dt] { body->step(dt); });
 }
 
-/// The row of a baseline, which steps what a row of Pliant steps.
+/// The row of a baseline that steps the same scene as a row of Pliant.
 BenchRow baseline_row(const BenchRow& like, const char* backend, const Contestant& steps)
 {
     BenchRow row;
@@ -111,7 +111,7 @@ Scene stepped_scene(Cloth cloth, Method method, bool quick, double longest)
     const double digit = std::pow(10, std::floor(std::log10(most)) - 2);
     const double step = std::floor(most / digit * (1 + 1e-9)) * digit;
 
-    // Steps that take some tens of ms together: a power of two, 8 for the largest cloths.
+    // Steps that together take some tens of ms: a power of two, 8 for the largest cloths.
     const std::uint64_t least_count = quick ? 2 : 8, most_count = quick ? 8 : 512;
     const std::uint64_t node_steps = quick ? 1'000 : 4'000'000;
     std::uint64_t count = least_count;

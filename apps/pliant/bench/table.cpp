@@ -25,7 +25,7 @@ std::string text_of(const char* format, const std::optional<double>& value, doub
 
 std::string threads_text(const BenchRow& row)
 {
-    return row.threads > 0 ? std::to_string(row.threads) : "";  // a device has none
+    return row.threads > 0 ? std::to_string(row.threads) : "";  // empty for a device
 }
 
 bool same_case(const BenchRow& a, const BenchRow& b)
@@ -167,7 +167,7 @@ const std::vector<Column>& columns()
 
 using Line = std::vector<std::string>;
 
-/// Columns as wide as what is in them; those marked are words, the others end where numbers end.
+/// Columns as wide as their contents; `words` are left-aligned, the others right-aligned.
 void print_lines(const std::vector<Line>& lines, const std::vector<bool>& words)
 {
     std::vector<std::size_t> widths(lines.front().size());

@@ -1,4 +1,4 @@
-// Soft bodies: a figure of closed triangles on the ground, by its springs alone and with its volume kept.
+// Soft bodies: a closed figure on the ground, with springs alone and with the volume constraint.
 #include <algorithm>
 #include <filesystem>
 #include <functional>
@@ -50,14 +50,14 @@ std::vector<BenchCase> volume_cases(const BenchOptions& options)
     if (options.simulation.backend == Backend::vulkan) sizes.back() = 500'000;  // a million triangles
     if (options.quick) sizes = {1'000};
     if (!options.sizes.empty()) sizes = options.sizes;
-    constexpr std::uint64_t least = 1'000, most = 500'000;  // of blob_mesh
+    constexpr std::uint64_t least = 1'000, most = 500'000;  // vertices of blob_mesh
     std::erase_if(sizes, [&](std::uint64_t vertices) {
         const bool fits = vertices >= least && vertices <= most;
         if (!fits && options.suite == "volume")
             throw Error(ErrorKind::bad_usage,
                         "--sizes names a body of " + with_commas(vertices) +
                             " vertices: the figure of the suite volume has 1,000 to 500,000");
-        return !fits;  // meant for another suite
+        return !fits;  // those sizes are for another suite
     });
     std::vector<BenchCase> cases;
     for (const std::uint64_t vertices : sizes)
@@ -67,7 +67,7 @@ std::vector<BenchCase> volume_cases(const BenchOptions& options)
                 [=] { return blob_mesh({.vertices = static_cast<std::uint32_t>(vertices)}); }, method));
     for (const std::string& file : options.meshes) {
         const SurfaceMesh read = read_mesh(file);
-        if (options.suite == "all" && !inspect_mesh(read).closed) continue;  // meant for another suite
+        if (options.suite == "all" && !inspect_mesh(read).closed) continue;  // that mesh is for another suite
         const auto count = read.vertices.size();
         for (const Method method : {Method::mass_spring, Method::volume})
             cases.push_back(figure_case(

@@ -6,7 +6,7 @@
 namespace pliant::tool::reproduce {
 namespace {
 
-/// The papers' numbers that stand in columns of their own: series and quantity.
+/// The papers' numbers with their own columns: series and quantity.
 std::vector<std::pair<std::string, std::string>> their_series(const Json& numbers)
 {
     std::vector<std::pair<std::string, std::string>> series;
@@ -33,7 +33,7 @@ std::string their_number(const Json& numbers, const std::pair<std::string, std::
     return "";
 }
 
-/// What the serial baseline has of the quantities.
+/// Whether the serial baseline has this quantity.
 bool is_of_serial(const std::string& quantity)
 {
     return quantity == "frames_per_second" || quantity == "frames";
@@ -121,7 +121,7 @@ void ComparisonTable::add_means()
     }
 }
 
-/// Of a column in which some case of the group has no number there is none.
+/// Null if any case of the group has no number in the column.
 Json ComparisonTable::mean_of(const std::vector<std::string>& group, std::size_t mean_axis,
                               std::size_t count) const
 {

@@ -1,4 +1,4 @@
-// The table of an experiment: ours beside theirs.
+// The table of an experiment: our numbers beside the papers'.
 #pragma once
 
 #include <optional>
@@ -11,24 +11,23 @@
 
 namespace pliant::tool::reproduce {
 
-/// What papers.json has of an experiment.
+/// The experiment's numbers in papers.json.
 Json numbers_of(const Experiment& experiment);
 
-/// Columns: the axes, what does not depend on the machine, their series, ours by machine, ratios. Rows: the
-/// cases.
+/// Columns: the axes, quantities independent of the machine, the papers' series, ours by machine, ratios.
+/// Rows: the cases.
 class ComparisonTable {
 public:
     ComparisonTable(const Experiment& experiment, std::vector<MachineHere> machines);
 
-    /// `measurements` has one for each machine.
+    /// `measurements`: one per machine.
     void add(const Case& each, const std::vector<Measurement>& measurements);
-    /// Rows with means over the axis that asks for them, one for each combination of the others.
+    /// Adds rows with means over the axis with `mean`, one for each combination of the others.
     void add_means();
 
-    /// An object with `columns` (name, title, unit, source) and `rows` (texts), without the columns that
-    /// nothing stands in.
+    /// An object with `columns` (name, title, unit, source) and `rows` (texts), without empty columns.
     Json json() const;
-    /// What was left out, and why.
+    /// What was omitted, and why.
     const std::set<std::string>& notes() const { return notes_; }
 
 private:
@@ -45,9 +44,9 @@ private:
     std::set<std::string> notes_;
 };
 
-/// What a cell says as a number; nothing for an empty one and for words.
+/// The number in a cell; empty for an empty cell or words.
 std::optional<double> number_of(const std::string& cell);
-/// A table of a document (columns, rows) as CSV.
+/// A document's table (columns, rows) as CSV.
 std::string csv_of(const Json& table);
 
 }  // namespace pliant::tool::reproduce

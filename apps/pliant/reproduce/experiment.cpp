@@ -26,7 +26,7 @@ TwoNumbers two_numbers(const Json& data, const char* key, TwoNumbers otherwise)
     return {data[key].at("full").get<double>(), data[key].at("quick").get<double>()};
 }
 
-/// With the named sets in the place of their names.
+/// Replaces names of sets by the sets.
 std::vector<std::string> overrides_of(const Json& list, const Json& sets)
 {
     std::vector<std::string> overrides;

@@ -1,4 +1,4 @@
-// Experiments as data: experiments.json and papers.json, which are part of the program.
+// Experiments as data: experiments.json and papers.json, which are embedded in the program.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@ namespace pliant::tool::reproduce {
 
 using Json = nlohmann::ordered_json;
 
-/// Where something is run.
+/// Where an experiment runs.
 enum class Machine {
     serial,  ///< the papers' algorithm, one thread
     cpu,     ///< Pliant's backend of that name
@@ -23,16 +23,16 @@ enum class Machine {
 };
 const char* name_of(Machine machine);
 
-/// One thing that an axis can be: overrides of the scene.
+/// One value of an axis: overrides of the scene.
 struct AxisValue {
-    std::string label;                   ///< what a table says
-    std::string key;                     ///< what papers.json says
+    std::string label;                   ///< text in tables
+    std::string key;                     ///< key in papers.json
     std::vector<std::string> set;        ///< PATH=VALUE
-    std::string mesh;                    ///< file among the meshes that are given; empty: none is needed
+    std::string mesh;                    ///< file in the folder of meshes; empty: none is needed
     std::optional<double> mesh_height;   ///< m, to which the mesh is scaled
-    std::shared_ptr<AxisValue> instead;  ///< when the mesh is not there
-    bool quick = true;                   ///< part of a quick run
-    std::map<std::string, std::vector<std::string>> only;  ///< by axis: the keys that it goes together with
+    std::shared_ptr<AxisValue> instead;  ///< replacement if the mesh is missing
+    bool quick = true;                   ///< included in a quick run
+    std::map<std::string, std::vector<std::string>> only;  ///< by axis: the keys with which it is combined
 };
 struct Axis {
     std::string name;
@@ -40,9 +40,9 @@ struct Axis {
     std::vector<AxisValue> values;
 };
 
-/// One row of a table: a scene and how it is changed.
+/// One row of a table: a scene and its overrides.
 struct Case {
-    std::vector<std::string> labels, keys;  ///< one for each axis
+    std::vector<std::string> labels, keys;  ///< one per axis
     std::vector<std::string> set;
     std::string mesh;
     std::optional<double> mesh_height;
@@ -54,38 +54,39 @@ struct Ratio {
     std::string quantity;
 };
 
-/// A number that is written once for a quick run and once for a full one.
+/// A number for a quick run and one for a full run.
 struct TwoNumbers {
     double full = 0, quick = 0;
     double of(bool is_quick) const { return is_quick ? quick : full; }
 };
 
-/// How the longest step is looked for.
+/// The search for the longest stable step.
 struct StabilityRule {
-    TwoNumbers duration;         ///< s, that a cloth must stand
-    TwoNumbers within;           ///< 0.01: the step is found to 1 %
-    double stretch_at_most = 0;  ///< of any spring at any time, (l - l0) / l0
-    double timed_at_most = 0;    ///< s: what a step costs is measured with the longest one up to this
+    TwoNumbers duration;         ///< s, for which a cloth must stay intact
+    TwoNumbers within;           ///< 0.01: the step is found within 1 %
+    double stretch_at_most = 0;  ///< maximum strain of any spring at any time, (l - l0) / l0
+    double timed_at_most = 0;    ///< s: the cost of a step is measured with the longest stable one up to this
 };
 
-struct Experiment {  // NOLINT(bugprone-exception-escape): to move JSON does not throw
-    Json data;       ///< as it is written
+struct Experiment {  // NOLINT(bugprone-exception-escape): moving JSON does not throw
+    Json data;       ///< as in the file
     std::string id, paper, item, title, kind;  ///< kind: speed, behaviour, stability, passes
     std::string scene, setting, differs;
     std::vector<std::string> set;
     std::vector<Axis> axes;
     std::vector<Machine> machines;
-    TwoNumbers frames;                 ///< of a case, at most
-    TwoNumbers seconds;                ///< of a case on a machine, about: fewer frames where they take longer
-    TwoNumbers software_nodes;         ///< largest case that a software Vulkan device runs
-    std::uint64_t batch = 0;           ///< frames in one call; 0: a fifth of them
-    std::optional<double> rest_above;  ///< m: the body's lowest point is put so high
-    StabilityRule stability;           ///< of that kind
+    TwoNumbers frames;                 ///< maximum, of a case
+    TwoNumbers seconds;                ///< of a case on a machine, approximately: fewer frames if they take
+                                       ///< longer
+    TwoNumbers software_nodes;         ///< largest case that runs on a software Vulkan device
+    std::uint64_t batch = 0;           ///< frames per call; 0: a fifth of them
+    std::optional<double> rest_above;  ///< m: the height at which the body's lowest point is placed
+    StabilityRule stability;           ///< for the kind stability
     std::vector<double> picture_times[2];  ///< s; full, quick
     std::vector<std::string> of_case, quantities;
     std::vector<Ratio> ratios;
 
-    /// All combinations of the axes. `meshes` may be empty: then other shapes stand in.
+    /// All combinations of the axes. `meshes` may be empty: then other shapes are used.
     std::vector<Case> cases(bool quick, const std::filesystem::path& meshes) const;
 };
 

@@ -1,4 +1,4 @@
-// The machines that an experiment runs on.
+// The machines of an experiment.
 #pragma once
 
 #include <cstdint>
@@ -14,23 +14,23 @@ struct MachineHere {
     Machine machine = Machine::best;
     std::string title;      ///< of columns
     std::string device;     ///< with its kind
-    bool software = false;  ///< a Vulkan device without a GPU: correct, and no benchmark
+    bool software = false;  ///< a Vulkan device without a GPU: correct, but not for benchmarks
     SimulationOptions options;
 };
 
-/// How a machine is to be had here; nothing when there is none.
+/// The present realisation of a machine; empty if it is not available.
 std::optional<MachineHere> machine_here(Machine machine);
 
-/// A scene on a machine, frame by frame.
+/// Steps a scene on a machine, frame by frame.
 class Stepper {
 public:
     virtual ~Stepper() = default;
-    /// Seconds that this many frames took, in one call.
+    /// Advances this many frames in one call; returns the seconds taken.
     virtual double advance(std::uint64_t frames) = 0;
     /// Pliant's own; null for the serial baseline.
     virtual Simulation* simulation() { return nullptr; }
 };
-/// Throws Error when the scene cannot be run there.
+/// Throws Error if the scene cannot run there.
 std::unique_ptr<Stepper> make_stepper(const Scene& scene, const MachineHere& machine);
 
 }  // namespace pliant::tool::reproduce

@@ -13,7 +13,7 @@ namespace pliant::tool::reproduce {
 namespace {
 
 constexpr std::uint32_t picture_width = 320, picture_height = 240;  // pixels
-// A run that diverges is drawn until its fastest node is beyond this: later there is nothing to see.
+// Later frames of a diverging run show nothing, so drawing stops at this speed.
 constexpr double fastest_drawn = 60;  // m/s
 constexpr int batches = 5;
 
@@ -29,7 +29,7 @@ std::string quoted_for_shell(const std::string& text)
     return text.find_first_of(" \"'[]{}") == std::string::npos ? text : "'" + text + "'";
 }
 
-/// What the shape of a body asks for: its place above the ground, and its size.
+/// Overrides for a body's height above the ground and its size.
 std::vector<std::string> placement(const Experiment& experiment, const Case& each, const Scene& scene)
 {
     const auto* mesh = std::get_if<SurfaceMesh>(&scene.cloth(0).shape);
@@ -44,7 +44,7 @@ std::vector<std::string> placement(const Experiment& experiment, const Case& eac
     if (each.mesh_height) {
         scale = *each.mesh_height / (static_cast<double>(highest) - static_cast<double>(lowest));
         overrides.push_back("bodies[0].mesh.scale=" + json_number(scale));
-        // As high above the lower plate as the scene has its own figure.
+        // As high above the lower plate as the scene's own figure.
         constexpr double gap = 0.005;  // m
         overrides.push_back("bodies[0].position=[0, " +
                             json_number(gap - scale * static_cast<double>(lowest)) + ", 0]");
@@ -97,7 +97,7 @@ double median(std::vector<double> values)
     return n == 0 ? 0 : (values[(n - 1) / 2] + values[n / 2]) / 2;
 }
 
-/// A machine's part of a speed measurement.
+/// One machine in a speed measurement.
 struct Lane {
     std::unique_ptr<Stepper> stepper;
     std::vector<double> seconds_per_frame;
@@ -121,7 +121,7 @@ void advance(Lane& lane, std::uint64_t call, const Interrupted& interrupted)
     lane.seconds_per_frame.push_back(seconds / static_cast<double>(lane.batch));
 }
 
-/// Sets a lane up and warms it, and sees how many frames the time allows.
+/// Sets up a lane, warms it up, and determines how many frames fit into the time.
 void prepare(Lane& lane, const Experiment& experiment, const Scene& scene, bool quick,
              const MachineHere& machine, const Interrupted& interrupted)
 {
@@ -135,7 +135,7 @@ void prepare(Lane& lane, const Experiment& experiment, const Scene& scene, bool 
     const double affordable = experiment.seconds.of(quick) / one / batches;
     lane.batch = static_cast<std::uint64_t>(
         std::clamp(affordable, 1.0, std::max(experiment.frames.of(quick) / batches, 1.0)));
-    // The program of a longer call is made before it is timed.
+    // Makes the program of a longer call before it is timed.
     if (experiment.batch == 0 && lane.batch > 1 && machine.machine != Machine::serial)
         lane.stepper->advance(lane.batch);
 }
@@ -182,7 +182,7 @@ std::vector<Measurement> measure_speed(const Experiment& experiment, const Scene
         }
         try {
             prepare(lanes[k], experiment, scene, quick, machines[k], interrupted);
-        } catch (const Error& error) {  // a device that is too small, say: the others go on
+        } catch (const Error& error) {  // for example a device that is too small: the others continue
             lanes[k].stepper.reset();
             measurements[k].absent = error.what();
         }
@@ -229,7 +229,7 @@ Measurement measure_behaviour(const Experiment& experiment, const Scene& scene, 
         }
 
     RunSummary summary;
-    std::uint64_t calm = 0, drawn = 0;  // the last frame that could be drawn; pictures so far
+    std::uint64_t calm = 0, drawn = 0;  // last frame that could be drawn; number of pictures so far
     const auto take_pictures = [&](std::uint64_t frame) {
         for (const std::uint64_t each : wanted)
             if (painter && each == frame) {
@@ -250,7 +250,7 @@ Measurement measure_behaviour(const Experiment& experiment, const Scene& scene, 
     take(m, simulation, summary);
     m.frames_per_second = static_cast<double>(m.frames) / std::max(simulation.report().wall_seconds, 1e-9);
 
-    if (painter && drawn < wanted.size()) {  // once more, up to where there was something to see
+    if (painter && drawn < wanted.size()) {  // repeats the run up to the last frame that could be drawn
         Simulation again(scene, machine.options);
         for (std::uint64_t frame = 1; frame <= calm; ++frame) again.advance(frame_length);
         Painter last(again);

@@ -1,15 +1,15 @@
-// What else a machine computes while something is measured.
+// The load by other programs during a measurement.
 #pragma once
 
 #include <optional>
 
 namespace pliant::tool::reproduce {
 
-/// Which part of the processors' time other programs took since this was made.
+/// The share of processor time that other programs have taken since construction.
 class OtherLoad {
 public:
     OtherLoad();
-    /// 0 to 1; nothing where the system does not tell.
+    /// 0 to 1; empty if the system does not report it.
     std::optional<double> share() const;
 
 private:

@@ -1,4 +1,4 @@
-// Tables 1 and 2 of the cloth paper beside ours, from the table of passes that this program was built with.
+// Tables 1 and 2 of the cloth paper beside ours, from this program's table of passes.
 #include <map>
 
 #include "pliant/error.hpp"
@@ -30,7 +30,7 @@ Json column(const char* title, const char* source)
 
 bool is_papers(const PassDescription& pass) { return pass.family == PassFamily::paper; }
 
-/// Theirs and ours, kernel by kernel; then those of ours that have no counterpart.
+/// The paper's kernels and ours; then our passes without a counterpart.
 Json kernels()
 {
     Json table;
@@ -58,7 +58,7 @@ Json kernels()
     return table;
 }
 
-/// Theirs; then the resources that the passes of the same solver read and write.
+/// The paper's buffers; then the resources of our passes for the same solver.
 Json buffers()
 {
     Json table;

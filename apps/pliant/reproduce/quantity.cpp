@@ -1,4 +1,4 @@
-// The quantities that experiments.json can ask for.
+// The quantities available in experiments.json.
 #include <cmath>
 #include <cstdio>
 

@@ -31,7 +31,7 @@ std::string base64(const std::string& bytes)
     return text;
 }
 
-/// How one kind of document writes what a report is made of.
+/// Writes the elements of a report in one kind of document.
 class Format {
 public:
     virtual ~Format() = default;
@@ -287,7 +287,7 @@ void write_all(Format& format, const std::filesystem::path& out, const std::vect
     }
 }
 
-/// Every number of every table in one file, a number a line.
+/// Every number of every table in one file, one per line.
 std::string all_numbers(const std::vector<Json>& documents)
 {
     Json list;

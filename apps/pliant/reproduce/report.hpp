@@ -1,4 +1,4 @@
-// The report of all experiments that are done: report.html, report.md, results.csv.
+// The report of all completed experiments: report.html, report.md, results.csv.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,7 @@
 
 namespace pliant::tool::reproduce {
 
-/// `documents` as run_experiment made them. Figures are taken from figures/ID.svg where there is one. `notes`
-/// are said on top.
+/// `documents`: from run_experiment. Includes figures/ID.svg where it exists. `notes` are at the top.
 void write_report(const std::filesystem::path& out, const std::vector<Json>& documents,
                   const std::vector<std::string>& notes);
 

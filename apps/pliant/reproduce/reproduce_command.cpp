@@ -41,7 +41,7 @@ std::vector<const Experiment*> chosen(const ReproduceOptions& options)
     return list;
 }
 
-/// Makes the folders of a report, or says why it cannot.
+/// Creates the folders of a report, or throws with the reason.
 void make_folders(const std::filesystem::path& out)
 {
     for (const char* name : {"data", "figures", "pictures"}) {
@@ -53,7 +53,7 @@ void make_folders(const std::filesystem::path& out)
                                                   (error ? error.message() : "it is a file") +
                                                   "); name another folder");
     }
-    const AtomicFile probe(out / "report.html");  // refused before the work is done
+    const AtomicFile probe(out / "report.html");  // fails before the work, not after
 }
 
 bool has_matplotlib(const std::string& python)
@@ -65,7 +65,7 @@ bool has_matplotlib(const std::string& python)
     }
 }
 
-/// Draws figures/ID.svg of every document; empty, or a sentence why there are none.
+/// Draws figures/ID.svg for every document; returns a sentence if it could not, else empty.
 std::string draw_figures(const std::filesystem::path& out, const std::vector<Json>& documents)
 {
     for (const std::string python : {"python3", "/usr/bin/python3"}) {
@@ -82,7 +82,7 @@ std::string draw_figures(const std::filesystem::path& out, const std::vector<Jso
            "same command again, which measures nothing twice";
 }
 
-/// Runs what is asked for and not yet done.
+/// Runs the chosen experiments that are not yet complete.
 class Runs {
 public:
     Runs(std::vector<const Experiment*> list, Circumstances here)
@@ -90,7 +90,7 @@ public:
     {
     }
 
-    /// False when it was interrupted.
+    /// False if it was interrupted.
     bool all()
     {
         for (std::size_t k = 0; k < list_.size(); ++k) {
@@ -136,7 +136,8 @@ private:
     std::size_t done_ = 0, repeated_ = 0;
 };
 
-/// Of all experiments that are done in the folder, asked for now or before. Tells what is missing.
+/// The report of all completed experiments in the folder, from this run or earlier ones. Prints what is
+/// missing.
 void report(const Circumstances& here)
 {
     std::vector<Json> documents;

@@ -1,4 +1,4 @@
-// `pliant reproduce`: the experiments of both papers, and a report of ours beside theirs.
+// `pliant reproduce`: the experiments of both papers, and a report with our numbers beside theirs.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@ namespace pliant::tool {
 
 struct ReproduceOptions {
     std::string papers = "all";  ///< cloth, volume or all
-    bool quick = false;          ///< small and short: to see that it works, in minutes
+    bool quick = false;          ///< small and short: a test run in minutes
     std::string out = "reproduction";
     std::vector<std::string> only;  ///< ids, or parts of them
-    std::string meshes;             ///< folder with the scanned meshes; empty: other shapes stand in
-    bool list = false;              ///< tell the ids alone
+    std::string meshes;             ///< folder with the scanned meshes; empty: other shapes are used
+    bool list = false;              ///< only print the ids
 };
-/// Exit code: 0 when all that was asked for is done.
+/// Exit code: 0 if all chosen experiments are complete.
 int reproduce_command(const ReproduceOptions& options);
 
 }  // namespace pliant::tool

@@ -16,7 +16,7 @@
 namespace pliant::tool::reproduce {
 namespace {
 
-constexpr double quiet = 0.05;  // part of the processors' time that others may take without a word
+constexpr double quiet = 0.05;  // share of processor time that others may take without a remark
 
 /// FNV-1a, 64 bit.
 std::uint64_t hash_of(const std::string& text)
@@ -47,7 +47,7 @@ std::filesystem::path document_file(const Experiment& experiment, const Circumst
     return here.out / "data" / (experiment.id + ".json");
 }
 
-/// What a case is called where it stands alone.
+/// The name of a case outside its table.
 std::string name_of_case(const Experiment& experiment, const Case& each)
 {
     std::string text;
@@ -84,7 +84,7 @@ Json findings_of(const Experiment& experiment, const Json& table)
     return findings;
 }
 
-/// Writes the pictures of a case and tells of them.
+/// Writes the pictures of a case and adds them to the document.
 void keep_pictures(const Experiment& experiment, const Case& each, const Measurement& m, std::size_t number,
                    const Circumstances& here, Json& pictures)
 {

@@ -1,4 +1,4 @@
-// How long a step of each integrator may be in a scene, found by running it, and what a step costs.
+// Finds the longest stable step of each integrator in a scene by running it, and the cost of a step.
 #include <algorithm>
 #include <cmath>
 
@@ -7,9 +7,9 @@
 namespace pliant::tool::reproduce {
 namespace {
 
-// Between these bounds, s, the longest step is looked for.
+// The range of the search for the longest step, s.
 constexpr double shortest = 1e-5, longest = 0.1;
-constexpr double look = 1.0 / 60;  // s between two looks at the cloth, about: a frame
+constexpr double look = 1.0 / 60;  // s between two checks of the cloth, approximately: a frame
 
 void set_step(Scene& scene, double step)
 {
@@ -18,7 +18,7 @@ void set_step(Scene& scene, double step)
     scene.time.substeps = static_cast<std::uint32_t>(steps);
 }
 
-/// Whether the cloth is one after `duration` s in steps of this length: finite, and no spring was ever
+/// Whether the cloth is intact after `duration` s in steps of this length: finite, and no spring was ever
 /// stretched by more than `most`.
 bool stands(Scene scene, double step, double duration, double most, const MachineHere& machine,
             const Interrupted& interrupted)
@@ -47,7 +47,7 @@ std::vector<Measurement> measure_stability(const Experiment& experiment, const S
         const auto holds = [&](double step) {
             return stands(scene, step, rule.duration.of(quick), rule.stretch_at_most, machine, interrupted);
         };
-        // Down from the longest, since what diverges is over soon; then halving the ratio.
+        // Downwards from the longest step, since diverging runs end soon; then bisection of the ratio.
         double good = longest, bad = longest;
         bool any = holds(good);
         const bool beyond = any;

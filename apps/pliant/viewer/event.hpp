@@ -1,4 +1,4 @@
-// What happens to a viewer, whether a window or a script says so.
+// Events of a viewer, from a window or a script.
 #pragma once
 
 #include <cstdint>
@@ -8,19 +8,19 @@ namespace pliant::tool {
 
 struct Event {
     enum class Kind {
-        key,           ///< `code` of GLFW, `down`
+        key,           ///< GLFW's `code`, `down`
         button,        ///< of the mouse: 0 left, 1 right, 2 middle; `down`
         move,          ///< of the mouse, to x, y in pixels
-        move_to,       ///< of the mouse, to where node `index` of cloth `code` is seen
-        scroll,        ///< `y` notches
-        text,          ///< `code`: a character typed
-        drop,          ///< `text`: a file
-        resize,        ///< to x, y pixels; 0, 0 is minimised
+        move_to,       ///< of the mouse, to the position of node `index` of cloth `code` on screen
+        scroll,        ///< `y`: notches
+        text,          ///< `code`: a character
+        drop,          ///< `text`: the file
+        resize,        ///< to x, y pixels; 0, 0: minimised
         close,         ///< end
-        lose_surface,  ///< as when a compositor restarts: what can be seen of a window is gone
+        lose_surface,  ///< the window's surface is lost, as after a restart of the compositor
         set,           ///< `text`: path=value of the scene
-        scene,         ///< `text`: a scene's name or file
-        method,        ///< `text`: a method's name
+        scene,         ///< `text`: name or file of a scene
+        method,        ///< `text`: name of a method
         screenshot,    ///< `text`: the file
     };
     Kind kind = Kind::close;

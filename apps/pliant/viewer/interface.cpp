@@ -11,7 +11,7 @@
 namespace pliant::tool {
 namespace {
 
-/// Colours of widgets are meant as sRGB, and the target takes linear light.
+/// Converts widget colours from sRGB to linear, as the target requires.
 void make_linear(ImGuiStyle& style)
 {
     for (ImVec4& colour : style.Colors)
@@ -44,7 +44,7 @@ Interface::Interface(const Screen& screen) : device_(screen.device())
     context_ = ImGui::CreateContext();
     ImGui::SetCurrentContext(context_);
     ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr;  // a viewer leaves no files where it was started
+    io.IniFilename = nullptr;  // writes no settings file into the working directory
     ImGui::StyleColorsDark();
     ImGui::GetStyle().WindowRounding = 4;
     ImGui::GetStyle().Colors[ImGuiCol_WindowBg].w = 0.88f;

@@ -1,4 +1,4 @@
-// Dear ImGui over a screen's pictures, fed by the viewer's events.
+// Dear ImGui on top of a screen's pictures, driven by the viewer's events.
 #pragma once
 
 #include "viewer/screen.hpp"
@@ -17,9 +17,9 @@ public:
     void take(const Event& event);
     bool wants_mouse() const;
     bool wants_keys() const;
-    /// Begins a frame, in which widgets may be named.
+    /// Begins a frame; widgets may then be created.
     void begin(vk::Extent2D size, double seconds);
-    /// Ends it, and records it within a render pass; without commands it is dropped.
+    /// Ends the frame and records it within a render pass; without commands it is discarded.
     void end(const vk::raii::CommandBuffer* commands);
 
 private:

@@ -9,7 +9,7 @@
 namespace pliant::tool {
 namespace {
 
-constexpr double steepest = 1.55;  // radians: just short of straight up or down, where there is no "up"
+constexpr double steepest = 1.55;  // radians: just below vertical, where "up" is undefined
 
 }  // namespace
 
@@ -43,7 +43,7 @@ void OrbitCamera::orbit(double dx, double dy, double height)
 
 void OrbitCamera::pan(double dx, double dy, double height)
 {
-    // A pixel at the distance of the centre.
+    // The size of a pixel at the distance of the centre.
     const double pixel =
         2 * distance_ * std::tan(rest_.field_of_view * std::numbers::pi / 360) / std::max(height, 1.0);
     const Vec3d back = normalized(eye() - centre_, {0, 0, 1});

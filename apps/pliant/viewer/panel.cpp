@@ -11,7 +11,7 @@ namespace {
 
 const ImVec4 warning_colour{0.95f, 0.42f, 0.10f, 1.0f};
 
-/// Sliders of a scene's numbers: doubles, with their unit; `changed` when one was moved.
+/// Sliders for a scene's numbers, as doubles with units; sets `changed` if one was moved.
 class Sliders {
 public:
     bool changed = false;
@@ -154,7 +154,7 @@ void Panel::draw_state(Session& session, View& view)
     };
     const Method method = simulation.scene().method;
     if (simulation.step_length() > simulation.stable_step() && method != Method::constraint) {
-        // Of ACAD the solver keeps it stable all the same.
+        // For ACAD the solver keeps it stable nevertheless.
         ImGui::TextColored(warning_colour, "the step of %.3g ms exceeds the largest safe one of %.3g ms%s",
                            1000 * simulation.step_length(), 1000 * simulation.stable_step(),
                            method == Method::acad ? ": springs are taken softer" : "");
@@ -232,7 +232,7 @@ void Panel::draw_parameters(Session& session)
         moved.number("dt of a frame", frame, 1, 50, "%.2f ms");
         if (moved.changed) scene.time.frame_rate = 1000 / frame;
         sliders.changed |= moved.changed;
-        Sliders own;  // nothing of the scene
+        Sliders own;  // not part of the scene
         own.number("speed", session.speed, 0.05, 4, "%.2f x", true);
         own.whole("frames at once", session.most_steps, 1, 16, "%u at most");
         own.number("hand", session.hand_stiffness, 1, 1e5, "%.4g N/m", true);

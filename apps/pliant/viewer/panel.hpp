@@ -1,4 +1,4 @@
-// The panel of a viewer: what can be read and changed.
+// The panel of a viewer: its readings and controls.
 #pragma once
 
 #include <algorithm>
@@ -9,11 +9,11 @@
 
 namespace pliant::tool {
 
-/// Milliseconds of a frame of the display.
+/// Milliseconds of a display frame.
 struct FrameCost {
     double whole = 0;       ///< from one frame to the next
-    double simulation = 0;  ///< in steps, on their own thread
-    double driver = 0;      ///< waiting for or handing over to the driver and the screen
+    double simulation = 0;  ///< of steps, on their own thread
+    double driver = 0;      ///< in the driver and waiting for the screen
     double own = 0;         ///< the viewer itself, see docs/viewer.md
 };
 
@@ -48,7 +48,7 @@ private:
     std::size_t next_ = 0, count_ = 0;
 };
 
-/// What of a viewer can be seen and changed, beside its session.
+/// The viewer's state for the panel, besides its session.
 struct View {
     OverlaySet overlays;
     bool panel = true, help = false;
@@ -61,7 +61,7 @@ struct View {
 class Panel {
 public:
     Panel();
-    /// Within a frame of the interface.
+    /// Call it within a frame of the interface.
     void draw(Session& session, View& view);
 
 private:

@@ -7,7 +7,7 @@
 namespace pliant::tool {
 namespace {
 
-/// Adds the time until it goes to a sum of seconds.
+/// Adds its lifetime to a sum of seconds.
 class Stopwatch {
 public:
     explicit Stopwatch(double& seconds) : seconds_(seconds) {}
@@ -42,7 +42,7 @@ public:
         size_ = vk::Extent2D{width, height};
         if (width == 0 || height == 0) return;
         device_->wait_idle();
-        // The first target stays: its passes are what pipelines were made for.
+        // The first target is kept: pipelines refer to its passes.
         auto next = std::make_unique<vulkan::OffscreenTarget>(*device_, size_);
         if (!first_)
             first_ = std::move(next), target_ = first_.get();

@@ -1,4 +1,4 @@
-// Where a viewer's pictures go: a window, or nowhere but into files.
+// The target of a viewer's pictures: a window, or off-screen images.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ struct GLFWwindow;
 
 namespace pliant::tool {
 
-/// A picture that is being made. As many as there are slots may be on their way.
+/// A picture in preparation. Up to `slots` may be in flight.
 struct FramePlace {
     unsigned slot = 0;
     const vk::raii::CommandBuffer* commands = nullptr;  ///< begun
@@ -32,29 +32,29 @@ public:
     virtual vulkan::PicturePassHandles passes() const = 0;
     virtual vk::Extent2D size() const = 0;
 
-    /// What has happened since it was asked last.
+    /// Appends the events since the last call.
     virtual void poll(std::vector<Event>& events) = 0;
-    /// Waits until a place is free; nothing while there is nothing to draw to, as in a minimised window.
+    /// Waits for a free place; empty if there is nothing to draw to, as in a minimised window.
     std::optional<FramePlace> begin();
-    /// Submits and shows it. With `kept`, the picture can be read afterwards, which waits for it.
+    /// Submits and presents it. If `kept`, the picture can be read afterwards, which waits for it.
     void finish(const FramePlace& place, bool kept);
-    /// The picture that was kept; false when the screen cannot give it.
+    /// Reads the kept picture; false if the screen does not support it.
     virtual bool read(Image& into) = 0;
 
     virtual void resize(std::uint32_t width, std::uint32_t height) = 0;
     virtual void set_title(const std::string&) {}
-    /// The next picture finds the surface of its window lost; nothing without a window.
+    /// Simulates the loss of the window's surface before the next picture; does nothing without a window.
     virtual void lose_surface() {}
-    /// Seconds that begin and finish spent in the driver since this was asked last.
+    /// Seconds spent in the driver by begin and finish since the last call.
     double take_driver_seconds();
 
 protected:
     explicit Screen(std::shared_ptr<vulkan::Device> device);
 
-    /// What to draw to; nothing while there is nothing. `free`: signalled when it may be drawn to.
+    /// The target to draw to; empty if there is none. `free`: signalled when drawing may begin.
     virtual std::optional<vulkan::PictureTarget> next_target(vk::Semaphore free) = 0;
     virtual void record_copy(const vk::raii::CommandBuffer& commands) = 0;
-    /// Semaphores that the drawing waits for and signals; null where there is nothing to wait for.
+    /// Semaphores that drawing waits for and signals; null if none.
     virtual vk::Semaphore drawn() const { return nullptr; }
     virtual void present() {}
 
@@ -71,11 +71,10 @@ private:
     double driver_seconds_ = 0;
 };
 
-/// Pictures of this size that no one sees. Throws Error(device_failure) when there is no device for it.
+/// Off-screen pictures of this size. Throws Error(device_failure) if no device can draw them.
 std::unique_ptr<Screen> make_headless_screen(const vulkan::DeviceOptions& device, std::uint32_t width,
                                              std::uint32_t height);
-/// A window. Throws Error(device_failure) when there is no display, or no device that can show pictures in
-/// it.
+/// A window. Throws Error(device_failure) if there is no display, or no device can present in it.
 std::unique_ptr<Screen> make_window_screen(const vulkan::DeviceOptions& device, std::uint32_t width,
                                            std::uint32_t height, const std::string& title);
 

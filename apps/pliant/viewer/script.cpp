@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Reads one event, and says where it is when something is wrong with it.
+/// Reads one event; errors name its place.
 class EventReader {
 public:
     EventReader(const std::string& file, std::size_t index, const Json& json, std::vector<TimedEvent>& events)
@@ -72,7 +72,7 @@ private:
         for (const auto& [known, code] : names)
             if (name == known) return code;
         if (name.size() == 1 && ((name[0] >= 'A' && name[0] <= 'Z') || (name[0] >= '0' && name[0] <= '9')))
-            return name[0];  // GLFW numbers them by ASCII
+            return name[0];  // GLFW's codes for these keys are ASCII
         if (name.size() == 1 && name[0] >= 'a' && name[0] <= 'z') return name[0] - 'a' + 'A';
         refuse("." + key + " is '" + name +
                "', but must be a letter, a digit, space, period, escape, shift, "
@@ -82,7 +82,7 @@ private:
 
     void read(const std::string& key, const Json& value) const
     {
-        if (key == "key") {  // down, and up in the next frame
+        if (key == "key") {  // pressed, and released in the next frame
             const int code = key_code(key, value);
             add({.kind = Kind::key, .code = code, .down = true});
             events_.push_back({frame_ + 1, {.kind = Kind::key, .code = code, .down = false}});
@@ -136,7 +136,7 @@ std::vector<TimedEvent> read_script(const std::string& file)
     if (!in) throw Error(ErrorKind::bad_input, "the script '" + file + "' cannot be read");
     Json json;
     try {
-        json = Json::parse(in, nullptr, true, true);  // with comments, as scenes have them
+        json = Json::parse(in, nullptr, true, true);  // with comments, as in scenes
     } catch (const Json::parse_error& error) {
         throw Error(ErrorKind::bad_input, file + " is not JSON: " + error.what());
     }

@@ -1,4 +1,4 @@
-// A scripted session: events by time, from a JSON file. docs/viewer.md has the format.
+// A scripted session: timed events from a JSON file. docs/viewer.md has the format.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@
 namespace pliant::tool {
 
 struct TimedEvent {
-    std::uint64_t frame = 0;  ///< of the display, 60 a second
+    std::uint64_t frame = 0;  ///< display frame, 60 per second
     Event event;
 };
 
-/// By frame. Throws Error(bad_input) that names file, place and value.
+/// Sorted by frame. Throws Error(bad_input) that names file, place and value.
 std::vector<TimedEvent> read_script(const std::string& file);
 
 constexpr double script_frame_rate = 60;  // 1/s

@@ -83,7 +83,7 @@ void Session::start(Scene scene, const State* state)
     times_before_.clear();
     pass_costs_.clear();
     if (held_ && state) simulation_->grab(held_->cloth, held_->node, hand_, hand_stiffness, hand_damping);
-    // Those of a sheet are made when first asked for: now, while nothing steps.
+    // A sheet's triangles are made on first use: now, while nothing steps.
     for (std::size_t c = 0; c < scene_.cloth_count(); ++c) static_cast<void>(simulation_->triangles(c));
     stepper_.attach(*simulation_, overlays);
     hold();
@@ -92,7 +92,7 @@ void Session::start(Scene scene, const State* state)
 void Session::when_idle(std::function<void()> edit)
 {
     if (edits_.empty() && stepper_.is_idle()) return edit();
-    edits_.push_back(std::move(edit));  // behind those that wait: order counts
+    edits_.push_back(std::move(edit));  // after the waiting edits, to keep their order
     stepper_.interrupt();
 }
 
@@ -110,7 +110,7 @@ void Session::apply_changes()
     changed_ = false;
     try {
         State state = simulation_->state();
-        // Who is pinned now must not move on.
+        // Nodes that are pinned now must stop.
         start(scene_, &state);
         notice.clear();
     } catch (const Error& error) {
@@ -180,7 +180,7 @@ void Session::advance(double seconds, double patience)
     } else if (paused || changed_ || hand_moved_) {
         stepper_.interrupt();
     }
-    if (patience > 0) {  // also where it is idle: then what it has made is not collected yet
+    if (patience > 0) {  // also if idle: its results may not be collected yet
         const auto start = Clock::now();
         stepper_.wait(patience);
         waited_seconds_ = seconds_since(start);
@@ -202,7 +202,8 @@ void Session::begin_steps()
     const double frame = 1 / simulation_->scene().time.frame_rate;
     constexpr double rounding = 1e-9;
     const double due = std::floor((waiting_ + rounding) / frame);
-    // What cannot be done in time is dropped: slower than real time, but not later and later.
+    // Overdue steps are dropped: the simulation is then slower than real time, but does not lag more and
+    // more.
     behind_ = due > most_steps;
     if (behind_) waiting_ = most_steps * frame;
     if (due >= 1) stepper_.start(behind_ ? most_steps : static_cast<unsigned>(due), overlays);
@@ -217,7 +218,7 @@ void Session::collect()
         const unsigned single = std::min(single_steps_, made);
         single_steps_ -= single;
         waiting_ = single > 0 ? 0 : std::max(0.0, waiting_ - made * frame);
-        stepped_ = single == 0;  // the display shows the state of a single step, and none between
+        stepped_ = single == 0;  // a single step is shown without interpolation
         simulated_ += (made - single) * frame;
     }
     record_passes();
@@ -284,8 +285,8 @@ std::optional<NodeOf> Session::node_at(const OrbitCamera& camera, double x, doub
         place_of_nearest = place;
     });
     if (!nearest) return nearest;
-    // A node right in front of it, as of another layer, is the one that is seen, though it may be some pixels
-    // further off; a neighbour on the cloth lies beside it rather than in front.
+    // A node directly in front, as of another layer, has priority, even if it is some pixels further away;
+    // neighbours on the cloth are beside it, not in front.
     const Vec3d eye = camera.camera().position;
     const double depth = length(place_of_nearest - eye);
     NodeOf front = *nearest;
@@ -338,7 +339,7 @@ void Session::toggle_pin(NodeOf node)
         notice = "this node is held by a pin that moves: it cannot be released here";
         return;
     } else {
-        // Edges and regions become the nodes that they hold, all but this one.
+        // Edges and regions are replaced by their nodes, without this one.
         std::erase_if(cloth.pins, [](const Attachment& pin) { return pin.keyframes.empty(); });
         for (const PinListing& pin : pins)
             if (!pin.moves && pin.node != node.node) cloth.pin(pin.node);

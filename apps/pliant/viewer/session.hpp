@@ -1,5 +1,5 @@
-// A simulation that runs beside a clock, on a thread of its own, and what a person does to it. It knows no
-// window.
+// A simulation that runs alongside a clock, on its own thread, and the user's actions on it. It is
+// independent of windows.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace pliant::tool {
 
-/// A number over the last frames, oldest first when read from `first`.
+/// A number over the last frames; the oldest is at `first`.
 struct History {
     static constexpr std::size_t length = 300;
     std::array<float, length> values{};
@@ -48,7 +48,7 @@ struct NodeOf {
     friend bool operator==(const NodeOf&, const NodeOf&) = default;
 };
 
-/// Milliseconds of a pass in a frame, a mean over the last ones.
+/// Milliseconds per frame in a pass, averaged over the last frames.
 struct PassCost {
     std::string name;
     double milliseconds = 0;
@@ -59,67 +59,65 @@ public:
     /// Vulkan simulations run on `device`.
     Session(const SimulationOptions& options, std::shared_ptr<vulkan::Device> device);
 
-    /// Opens a built-in scene, a scene file, or a mesh, for which a scene is made. Throws Error; what was
-    /// open stays open then.
+    /// Opens a built-in scene, a scene file, or a mesh, for which a scene is made. Throws Error; then nothing
+    /// changes.
     void open(const std::string& scene_or_mesh, const std::vector<std::string>& overrides = {});
 
-    /// What moves in it, time and report included, is its thread's unless `is_idle`; what does not, as
-    /// numbers of nodes, may be read at any time.
+    /// State that changes with steps, including time and report, belongs to the stepping thread unless
+    /// `is_idle`; constant data, such as numbers of nodes, may be read at any time.
     Simulation& simulation() { return *simulation_; }
     const Simulation& simulation() const { return *simulation_; }
     bool is_idle() const { return stepper_.is_idle(); }
-    /// Does it now, or when the step that runs has ended.
+    /// Runs the edit now, or after the current step.
     void when_idle(std::function<void()> edit);
-    /// The last two states, to be drawn; they stay until the next call.
+    /// The last two states, for drawing; valid until the next call.
     Stepper::Seen hold();
-    /// Of the last state that was held.
+    /// The report of the last state from hold().
     const Report& report() const { return *report_; }
     double time() const { return time_; }
-    /// What was opened, for the scene picker.
+    /// The name of the open scene, for the scene picker.
     const std::string& opened() const { return opened_; }
-    /// Counts scenes that were opened: cloths and triangles are others then.
+    /// Increases with every opened scene: cloths and triangles then differ.
     std::uint64_t scene_number() const { return scene_number_; }
-    /// Counts simulations: buffers are others then.
+    /// Increases with every new simulation: buffers then differ.
     std::uint64_t simulation_number() const { return simulation_number_; }
-    /// Called before a simulation goes: what is drawn from its buffers must have been drawn.
+    /// Called before a simulation is destroyed: drawing from its buffers must be complete.
     std::function<void()> before_change;
 
-    /// The scene as it is wanted; whoever changes it says so, and it counts from the next step on. Positions
-    /// and velocities stay. What cannot be is told by `notice` and taken back.
+    /// The wanted scene. After a change, call scene_changed(); it takes effect with the next step, and
+    /// positions and velocities are kept. An invalid change is reported in `notice` and undone.
     Scene& scene() { return scene_; }
     void scene_changed() { changed_ = true; }
     void apply_changes();
-    /// Reads the scene again with this value and those that were set so before; what was changed otherwise
-    /// goes back to what the scene says.
+    /// Reads the scene again with this value and all values set before; other changes are lost.
     void set(const std::string& path_is_value);
     void set_method(Method method);
-    /// To the start, with the parameters of now.
+    /// Restarts with the present parameters.
     void reset();
 
     bool paused = false;
-    OverlaySet overlays;                            ///< that states are looked at for
-    unsigned most_steps = 4;                        ///< frames of the simulation in a frame of the display
-    double speed = 1;                               ///< of the simulation's time against the clock's
+    OverlaySet overlays;                            ///< for which states are gathered
+    unsigned most_steps = 4;                        ///< maximum simulation frames per display frame
+    double speed = 1;                               ///< simulated time relative to the clock
     double hand_stiffness = 100, hand_damping = 2;  ///< N/m, N s/m
 
-    /// Lets `seconds` pass: begins what steps are due when the last ones have ended, and waits for them up to
-    /// `patience`, in s. With 0 the display goes on while they run.
+    /// Advances the clock by `seconds`: starts due steps after the last ones have ended, and waits for them
+    /// up to `patience` s. With 0 the display continues while they run.
     void advance(double seconds, double patience);
     /// One frame, then a pause.
     void step_once();
-    /// Where the display is between the last two states: 0 to 1.
+    /// The display's position between the last two states: 0 to 1.
     float blend() const;
     bool is_behind() const { return behind_; }
     double real_time_factor() const { return real_time_factor_; }
-    /// Seconds of the last `advance`: that steps took which ended in it, that it waited for them, and that
-    /// their thread took to leave what is drawn.
+    /// Seconds of the last `advance`: taken by steps that ended in it, waiting for them, and copying states
+    /// for drawing.
     double step_seconds() const { return step_seconds_; }
     double waited_seconds() const { return waited_seconds_; }
     double state_seconds() const { return state_seconds_; }
 
-    /// The node that is seen nearest to a pixel, in front where several are; nothing within 40 pixels,
-    /// nothing.
-    /// When it is idle, as all below that names a node.
+    /// The node nearest to a pixel on screen, the front one if there are several; empty if none is within 40
+    /// pixels. Only while idle, as all functions below that name a node.
     std::optional<NodeOf> node_at(const OrbitCamera& camera, double x, double y, double width, double height);
     void grab(NodeOf node, Vec3d target);
     void move_hand(Vec3d target);
@@ -133,7 +131,7 @@ public:
 
     const Histories& histories() const { return histories_; }
     const std::vector<PassCost>& pass_costs() const { return pass_costs_; }
-    /// What went wrong last, or a remark; empty when there is nothing to say.
+    /// The last error or remark; empty if there is none.
     std::string notice;
 
 private:
@@ -152,11 +150,11 @@ private:
     std::uint64_t scene_number_ = 0, simulation_number_ = 0;
     bool changed_ = false;
 
-    double waiting_ = 0;  ///< s that the display is ahead of the last state
+    double waiting_ = 0;  ///< s by which the display is ahead of the last state
     bool stepped_ = false, behind_ = false, hand_moved_ = false;
     unsigned single_steps_ = 0;
     double real_time_factor_ = 1, step_seconds_ = 0, waited_seconds_ = 0, state_seconds_ = 0;
-    double simulated_ = 0, measured_ = 0;  ///< s, since the factor was taken last
+    double simulated_ = 0, measured_ = 0;  ///< s, since the last update of the factor
 
     std::optional<NodeOf> held_;
     Vec3d hand_;
@@ -164,16 +162,16 @@ private:
     std::vector<PassTime> times_, times_before_;
     std::vector<PassCost> pass_costs_;
     std::array<StepNumbers, Stepper::most_steps> numbers_;
-    std::vector<std::function<void()>> edits_;  ///< that wait for the end of a step
+    std::vector<std::function<void()>> edits_;  ///< waiting for the end of a step
     const Report* report_ = nullptr;
     double time_ = 0;
-    Stepper stepper_;  ///< the last, so that its thread ends first
+    Stepper stepper_;  ///< declared last, so that its thread ends first
 };
 
-/// A scene for a mesh: scaled to a metre, over a plane; a closed one is a soft body, an open one cloth.
+/// A scene for a mesh: scaled to a metre, above a plane; a closed mesh is a soft body, an open one cloth.
 Scene scene_of_mesh(const std::string& file);
 
-/// Throws Error(bad_usage) that names the methods.
+/// Throws Error(bad_usage) that lists the methods.
 Method method_of(const std::string& name);
 
 }  // namespace pliant::tool

@@ -42,7 +42,7 @@ Stepper::~Stepper()
     }
     begun_.notify_one();
     thread_.join();
-    device_->wait_idle();  // copies may be on their way
+    device_->wait_idle();  // copies may be in flight
 }
 
 bool Stepper::is_idle() const
@@ -60,7 +60,7 @@ void Stepper::interrupt()
 void Stepper::wait(double seconds)
 {
     std::unique_lock lock(mutex_);
-    constexpr double longest = 1e6;  // a duration must not overflow
+    constexpr double longest = 1e6;  // keeps the duration finite
     ended_.wait_for(lock, std::chrono::duration<double>(std::min(seconds, longest)), [&] { return !busy_; });
 }
 
@@ -144,7 +144,7 @@ unsigned Stepper::free_place() const
 {
     for (unsigned k = 0; k < states_.size(); ++k)
         if (k != before_ && k != last_ && k != shown_before_ && k != shown_last_) return k;
-    return 0;  // never: four of five are named at most
+    return 0;  // unreachable: at most four of five are in use
 }
 
 void Stepper::work()
@@ -159,7 +159,7 @@ void Stepper::work()
             try {
                 step();
                 lock.lock();
-            } catch (const std::exception& error) {  // steps throw nothing; the copies of a lost device do
+            } catch (const std::exception& error) {  // steps do not throw; copies from a lost device do
                 lock.lock();
                 failure_ = error.what();
                 left_ = 0;
@@ -198,8 +198,8 @@ void Stepper::step()
 
 void Stepper::fill(SeenState& state, OverlaySet overlays)
 {
-    // Nodes on their way to infinity cannot be seen, and software rasterisers take minutes over their
-    // triangles: the last state without them stays.
+    // Diverging nodes are not visible, and software rasterisers take minutes for their triangles; the last
+    // state before is kept.
     constexpr double fastest_drawn = 1e6;  // m/s
     const Report& report = simulation_->report();
     const bool drawn = report.finite && report.measures.max_speed < fastest_drawn;
@@ -227,7 +227,7 @@ void Stepper::copy_on_device(SeenState& state, const SeenState* instead)
     device_->handle().resetFences(*state.copied);
     const vk::raii::CommandBuffer& commands = state.commands;
     commands.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
-    // After what computed the positions, and pictures that were drawn from what is overwritten.
+    // After the computation of positions, and after drawing from the buffers to be overwritten.
     vulkan::barrier(commands, Stage::eComputeShader | Stage::eTransfer,
                     Access::eShaderWrite | Access::eTransferWrite, Stage::eTransfer,
                     Access::eTransferRead | Access::eTransferWrite);

@@ -1,4 +1,4 @@
-// Steps a simulation on a thread of its own, and keeps what is to be seen of its last states.
+// Steps a simulation on its own thread, and keeps its last states for drawing.
 #pragma once
 
 #include <array>
@@ -11,31 +11,32 @@
 
 namespace pliant::tool {
 
-/// What is seen of a state.
+/// A state for drawing.
 struct SeenState {
     PictureSource source;
-    OverlaySet overlays;                 ///< that `source` was gathered for
-    std::vector<vulkan::Buffer> copies;  ///< of positions on the device, by cloth; where that is direct
+    OverlaySet overlays;                 ///< for which `source` was gathered
+    std::vector<vulkan::Buffer> copies;  ///< of positions on the device, by cloth, if drawing is direct
     vk::raii::CommandBuffer commands{nullptr};
     vk::raii::Fence copied{nullptr};
 };
 
-/// Numbers of a step that are plotted.
+/// Numbers of a step for plots.
 struct StepNumbers {
     FrameMeasures measures;
     double volume = 0, active = 0, iterations = 0, residual = 0;
     double milliseconds = 0;  ///< of the step
 };
 
-/// Whoever shows states calls it from one thread. Between `start` and the end of its steps the simulation
-/// belongs to the stepper's thread; when it is idle, to the caller: `busy_`, which changes under `mutex_`,
-/// hands it over. States come in a ring of five: the two that are shown, the last two, and one that is being
-/// filled. Their places are named under `mutex_`, and what is in a place that is named to others does not
+/// One thread calls it and shows states. Between `start` and the end of its steps the simulation belongs to
+/// the stepper's thread, and while idle to the caller: `busy_`, which changes under `mutex_`, transfers it.
+/// States are in a ring of five: the two shown, the last two, and one being filled. Indices into the ring
+/// change under `mutex_`, and a published state does not change. So no lock is held during a step, and
+/// neither thread waits for the other.
 /// change: so there is no lock around a step, and neither thread waits for the other.
 class Stepper {
 public:
     static constexpr unsigned most_steps = 16;
-    static constexpr unsigned steps_between_times = 20;  ///< of passes
+    static constexpr unsigned steps_between_times = 20;  ///< times of passes are read after so many steps
 
     explicit Stepper(std::shared_ptr<vulkan::Device> device);
     ~Stepper();
@@ -43,33 +44,33 @@ public:
     Stepper& operator=(const Stepper&) = delete;
 
     bool is_idle() const;
-    /// Begins no step after the one that runs.
+    /// Starts no further step after the current one.
     void interrupt();
-    /// Until it is idle, at most for some seconds.
+    /// Waits until it is idle, at most `seconds`.
     void wait(double seconds);
 
-    // When it is idle:
-    /// From now on it is this one; what is seen is its state.
+    // Only while idle:
+    /// Switches to this simulation and publishes its state.
     void attach(Simulation& simulation, OverlaySet overlays);
-    /// Before the simulation goes.
+    /// Call it before the simulation is destroyed.
     void detach();
-    /// What is seen is the state of now, with none before it.
+    /// Publishes the present state, without a previous one.
     void look(OverlaySet overlays);
-    /// The same state with other overlays.
+    /// Publishes the same state with other overlays.
     void look_again(OverlaySet overlays);
-    /// Begins `steps` frames of the simulation, at most `most_steps`.
+    /// Starts `steps` frames of the simulation, at most `most_steps`.
     void start(unsigned steps, OverlaySet overlays);
 
-    /// Steps made since it was asked last, oldest first; returns their number.
+    /// Steps since the last call, oldest first; returns their number.
     unsigned take(std::array<StepNumbers, most_steps>& numbers);
-    /// Times of passes, when there are newer ones: they come after every `steps_between_times` steps.
+    /// Times of passes, if there are new ones: after every `steps_between_times` steps.
     bool take_pass_times(std::vector<PassTime>& times);
-    /// Seconds that filling states took since it was asked last.
+    /// Seconds spent filling states since the last call.
     double take_seconds_of_states();
-    /// A sentence when the device failed; empty otherwise.
+    /// A sentence if the device failed; else empty.
     std::string take_failure();
 
-    /// The last two states; they stay as they are until the next call.
+    /// The last two states; unchanged until the next call.
     struct Seen {
         const SeenState& before;
         const SeenState& last;
@@ -88,7 +89,7 @@ private:
     Simulation* simulation_ = nullptr;
     std::array<SeenState, 5> states_;
 
-    mutable std::mutex mutex_;  // for all below
+    mutable std::mutex mutex_;  // guards all below
     std::condition_variable begun_, ended_;
     unsigned before_ = 0, last_ = 0, shown_before_ = 0, shown_last_ = 0;
     unsigned left_ = 0, steps_timed_ = 0;
@@ -99,7 +100,7 @@ private:
     std::vector<PassTime> times_, newer_times_;
     double seconds_of_states_ = 0;
     std::string failure_;
-    std::thread thread_;  // the last, so that all is there when it begins
+    std::thread thread_;  // declared last, so that all else exists when it starts
 };
 
 }  // namespace pliant::tool

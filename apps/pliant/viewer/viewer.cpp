@@ -118,7 +118,7 @@ void Viewer::handle(const Event& event)
             }
             break;
         case Kind::screenshot: screenshots_.push_back(event.text); break;
-        case Kind::text: break;  // for the interface
+        case Kind::text: break;  // for the user interface
     }
 }
 
@@ -169,7 +169,7 @@ void Viewer::press_button(int button, bool down)
     with_node_at_mouse([this](NodeOf node) { camera_.look_at(session_.position_of(node)); });
 }
 
-/// Between steps: the node that is seen where the mouse is now, if there is one.
+/// Between steps: calls `use` with the node under the mouse, if there is one.
 template <class Use>
 void Viewer::with_node_at_mouse(Use&& use)
 {
@@ -199,7 +199,7 @@ void Viewer::grab()
     });
 }
 
-/// Where the mouse is in the plane that the hand moves in.
+/// The mouse position in the plane of the hand's motion.
 Vec3d Viewer::on_hand_plane() const
 {
     const Ray ray = camera_.ray(mouse_x_, mouse_y_, screen_->size().width, screen_->size().height);
@@ -223,8 +223,7 @@ void Viewer::update_drawing()
     const bool other_scene = drawn_scene_ != session_.scene_number();
     const bool other_simulation = drawn_simulation_ != session_.simulation_number();
     if (other_scene || other_simulation) {
-        // Also where only numbers of the scene have changed: buffers of another simulation may have the names
-        // of those that were.
+        // Also after mere changes of parameters: buffers of a new simulation may reuse old handles.
         screen_->device()->wait_idle();
         const auto topologies = topologies_of(simulation);
         drawing_ =
@@ -241,7 +240,7 @@ void Viewer::update_drawing()
     }
 }
 
-/// Names what is drawn of each cloth.
+/// Sets what is drawn of each cloth.
 void Viewer::show(const Stepper::Seen& seen)
 {
     frames_.clear();

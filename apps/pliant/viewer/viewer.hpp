@@ -1,4 +1,4 @@
-// The viewer: a session, a screen, a camera, and what events do to them.
+// The viewer: a session, a screen, a camera, and the handling of events.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace pliant::tool {
 
 class Viewer {
 public:
-    /// Simulates on the screen's device where the backend is vulkan.
+    /// Simulates on the screen's device if the backend is vulkan.
     Viewer(std::unique_ptr<Screen> screen, const SimulationOptions& simulation);
     ~Viewer();
 
@@ -25,7 +25,8 @@ public:
     void open(const std::string& scene_or_mesh, const std::vector<std::string>& overrides = {});
 
     void handle(const Event& event);
-    /// What the screen has to tell, then a frame: `seconds` pass. `patience`: see Session::advance.
+    /// Handles the screen's events, then makes a frame that lasts `seconds`. `patience`: see
+    /// Session::advance.
     void frame(double seconds, double patience);
 
     bool is_done() const { return done_; }
@@ -34,7 +35,7 @@ public:
     View& view() { return view_; }
     const OrbitCamera& camera() const { return camera_; }
     const Screen& screen() const { return *screen_; }
-    /// Pictures of the frames to come go there, too; see PictureRecorder.
+    /// Also writes the pictures of the following frames; see PictureRecorder.
     void record(const std::string& file);
 
 private:
@@ -62,18 +63,18 @@ private:
     OrbitCamera camera_;
     std::unique_ptr<vulkan::SceneDrawing> drawing_;
     std::vector<ClothFrame> frames_;
-    std::uint64_t drawn_scene_ = 0, drawn_simulation_ = 0;  ///< that `drawing_` was made for
+    std::uint64_t drawn_scene_ = 0, drawn_simulation_ = 0;  ///< for which `drawing_` was made
     bool springs_known_ = false;
 
     double mouse_x_ = 0, mouse_y_ = 0;
     bool held_buttons_[3] = {};
     bool shift_ = false;
-    Vec3d hand_point_, hand_normal_;  ///< the plane that the hand moves in: through the node, facing the eye
+    Vec3d hand_point_, hand_normal_;  ///< the plane of the hand's motion: through the node, facing the eye
     double clock_ = 0, last_click_ = -1;
     double click_x_ = 0, click_y_ = 0;
 
     std::vector<Event> events_;
-    std::vector<std::string> screenshots_;  ///< wanted of the next picture
+    std::vector<std::string> screenshots_;  ///< to write from the next picture
     std::unique_ptr<PictureRecorder> recorder_;
     std::uint64_t recorded_ = 0;
     Image image_;

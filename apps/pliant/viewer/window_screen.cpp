@@ -1,4 +1,4 @@
-// A window of GLFW.
+// A GLFW window.
 #define GLFW_INCLUDE_NONE
 #include <vulkan/vulkan.h>
 
@@ -11,7 +11,7 @@
 namespace pliant::tool {
 namespace {
 
-/// GLFW for as long as it lives.
+/// The lifetime of GLFW.
 class Library {
 public:
     Library()
@@ -84,7 +84,7 @@ public:
 
     void poll(std::vector<Event>& events) override
     {
-        // A minimised window sleeps until something happens.
+        // A minimised window sleeps until an event arrives.
         if (target_->has_images() && !minimised_)
             glfwPollEvents();
         else
@@ -134,7 +134,8 @@ private:
         stale_ = false;
     }
 
-    /// The surface is gone, as when a compositor restarts: the window has another one, of the same format.
+    /// After the loss of the surface, as after a restart of the compositor: creates another one of the same
+    /// format.
     void replace_surface()
     {
         device_->wait_idle();
@@ -209,7 +210,7 @@ private:
             add(w, {.kind = Kind::button, .code = button, .down = action == GLFW_PRESS});
         });
         glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
-            // Pixels of the picture, of which a dense display has more than the window has units.
+            // Pixels per window unit, which exceed 1 on a high-density display.
             int width = 1, height = 1, pixels = 1, rows = 1;
             glfwGetWindowSize(w, &width, &height);
             glfwGetFramebufferSize(w, &pixels, &rows);

@@ -15,13 +15,13 @@ inline Number load_weight(const BodyArguments& a, std::ptrdiff_t offset)
     return a.weight ? Number::load(a.weight + offset) : Number(1.0f);
 }
 
-/// Lanes of a pack that belong to the block.
+/// Lanes of a pack that are within the block.
 inline L::mask lanes_below(std::ptrdiff_t first, std::uint32_t count)
 {
     return lanes_on_sheet(first, static_cast<std::ptrdiff_t>(count));
 }
 
-/// Loads the lanes that belong to the block, of planes that another thread may be writing behind it.
+/// Loads only the lanes within the block: another thread may be writing the planes behind it.
 inline Number load_some(const float* from, std::ptrdiff_t lanes)
 {
     if (lanes >= width) return Number::load(from);
@@ -35,7 +35,7 @@ inline Vector load_some(const Vectors& from, std::ptrdiff_t offset, std::ptrdiff
             load_some(from.z + offset, lanes)};
 }
 
-/// Visits the packs of a block: f(slice, lane of the slice, place in the block, lanes that count).
+/// Visits the packs of a block: f(slice, lane of the slice, place in the block, lanes within the block).
 template <class Function>
 inline void for_each_pack(const BodyBlock& block, Function&& f)
 {
@@ -43,7 +43,7 @@ inline void for_each_pack(const BodyBlock& block, Function&& f)
         f(place / slice_lanes, place % slice_lanes, place, static_cast<std::ptrdiff_t>(block.count - place));
 }
 
-/// Sums over the rings of a slice, by number.
+/// Accumulators of the rings of a slice.
 struct SliceRing {
     float force[3][slice_lanes], gradient[3][slice_lanes];
 
@@ -61,9 +61,9 @@ struct SliceRing {
     }
 };
 
-/// Adds the springs of a list to the forces on a slice, of nodes from `offset` on, in the order of the list;
-/// the rest lengths of entries that only fill up a row are negative, and they repeat the last neighbour, so
-/// that they add nothing. With the gradient of the volume, when the list is a ring.
+/// Adds a list's springs to the forces on a slice, of nodes from `offset` on, in the order of the list.
+/// Entries that pad a row have a negative rest length and repeat the last neighbour, so they add nothing. If
+/// the list is a ring, also accumulates the gradient of the volume.
 template <bool with_gradient>
 PLIANT_INLINE void add_springs(const BodyArguments& a, const Slices& list, std::size_t slice,
                                std::ptrdiff_t offset, float k, float damping, SliceRing& sums)
@@ -150,7 +150,7 @@ PLIANT_IN_ONE_PIECE void ring_step(const BodyArguments& a, std::size_t first_blo
             step_block<false>(a, b);
 }
 
-/// Sums of one block in lanes: lane k of 16 adds the values k, k + 16, ... in their order.
+/// Sums of one block in 16 lanes: lane k adds the values k, k + 16, ... in order.
 template <class Value, class Merge>
 class LaneTotals {
 public:
@@ -160,7 +160,7 @@ public:
         Value& total = totals_[lane / width];
         total = slice == 0 ? value : merge_(total, value);
     }
-    /// With what is not there: packs that the last slice lacks, and slices that the block lacks.
+    /// Pads with neutral values: packs missing in the last slice, and slices missing in the block.
     template <class Store>
     void finish(std::uint32_t count, Store store)
     {
@@ -276,7 +276,7 @@ PLIANT_IN_ONE_PIECE void volume_step(const BodyArguments& a, std::size_t first_b
     }
 }
 
-/// The fans of a pack. Of the next state along the directions; or (`measures`) of the current state as it is.
+/// The fans of a pack: of the next state along the directions, or, if `measures`, of the current state.
 template <bool measures>
 inline L::VolumeCubic cubic_of_fans(const BodyArguments& a, std::size_t slice, std::size_t lane,
                                     const Vector& centre)
@@ -284,7 +284,7 @@ inline L::VolumeCubic cubic_of_fans(const BodyArguments& a, std::size_t slice, s
     const Vector zero{Number(0.0f), Number(0.0f), Number(0.0f)};
     const auto gather = [&](const std::uint32_t* offset) {
         if (measures) return L::Motion{gather_vectors(a.state, offset), zero};
-        return gather_states(a.ends, offset);  // a change for a velocity
+        return gather_states(a.ends, offset);  // the direction takes the place of the velocity
     };
     const std::uint32_t begin = a.fans.start[slice], end = a.fans.start[slice + 1];
     const std::uint32_t* offset = a.fans.place + begin * slice_lanes + lane;
@@ -301,7 +301,7 @@ inline L::VolumeCubic cubic_of_fans(const BodyArguments& a, std::size_t slice, s
         change = next_change;
     }
     L::VolumeCubic cubic = L::fan_cubic(fan, apex.position - centre, apex.velocity);
-    if (measures) cubic.first = cubic.second = cubic.third = Number(0.0f);  // without the sign of zeros
+    if (measures) cubic.first = cubic.second = cubic.third = Number(0.0f);  // avoids negative zeros
     return cubic;
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 using L = Laws<float>;
 
-/// The lanes of a block, in their order.
+/// Adds the lanes of a block, in order.
 template <class Value, class Merge>
 Value total_of(const LaneSums& sums, Value (*value)(const float*), Merge merge)
 {
@@ -45,7 +45,7 @@ CpuBody::SliceArrays CpuBody::sliced(const std::vector<BodyBlock>& blocks, const
             append_slice(
                 slices.start, [&](std::size_t lane) { return rows[lane].size(); },
                 [&](std::size_t lane, std::size_t k, bool exists) {
-                    // Beyond the end of a row its last entry again, without a spring: it adds nothing.
+                    // A short row repeats its last entry without a spring, which adds nothing.
                     const std::vector<Entry>& of = rows[lane];
                     const Entry entry = exists ? of[k] : Entry{of.empty() ? block.first : of.back().node, -1};
                     slices.place.push_back(

@@ -1,4 +1,4 @@
-// A soft body as the kernels of the CPU want it.
+// A soft body in the data layout of the CPU kernels.
 #pragma once
 
 #include <vector>
@@ -11,16 +11,15 @@ namespace pliant::cpu {
 
 class CpuBody {
 public:
-    /// Nothing for a cloth.
+    /// Empty for a cloth.
     explicit CpuBody(const PlainCloth<float>& cloth);
 
     static bool has_kernel(Pass pass);
-    /// Units of a call that a kernel runs: blocks of nodes or of fans.
+    /// Units of a call for a kernel: blocks of nodes or of fans.
     std::size_t size_of(const Call& call) const;
-    /// Before the parts of a call run: what they need to know of each body as a whole. Not for more than one
-    /// thread.
+    /// Merges the sums of each body before the parts of a call run. Single-threaded.
     void prepare(const Call& call, PlainCloth<float>& cloth, const StepConstants<float>& constants);
-    /// Runs the blocks [begin, end) of a call; parts may run at once.
+    /// Runs the blocks [begin, end) of a call; parts may run concurrently.
     void run(const Call& call, PlainCloth<float>& cloth, StateRecords& records, const Kernels& kernels,
              const StepConstants<float>& constants, std::span<const Laws<float>::Collider> colliders,
              std::size_t begin, std::size_t end);
@@ -38,14 +37,14 @@ private:
         std::uint32_t node;
         float rest_length;
     };
-    /// Slices of blocks; `row` gives the entries of a node or fan.
+    /// Slices of blocks; `row` returns the entries of a node or fan.
     template <class Row>
     static SliceArrays sliced(const std::vector<BodyBlock>& blocks, const NodeLayout& layout, bool springs,
                               Row row);
 
     SliceArrays ring_, links_, fans_;
     std::vector<BodyNumbers> numbers_;       // by body
-    std::vector<LaneSums> sums_;             // by block, of the pass that runs
+    std::vector<LaneSums> sums_;             // by block, of the current pass
     std::vector<std::uint8_t> any_blocked_;  // by block of nodes
     bool has_links_ = false;
 };

@@ -1,6 +1,6 @@
-// SIMD and threads: the hot passes by kernels chosen for this machine, the others node by node, all of them
-// divided into parts that depend on nothing but their size. A node's result does not depend on the part it
-// falls into, so neither the number of threads nor the width of a pack changes a bit.
+// SIMD and threads: the hot passes run in kernels chosen for this machine, the others node by node. All are
+// divided into parts by their size alone. A node's result does not depend on its part, so neither the number
+// of threads nor the width of a pack changes a bit.
 #include <algorithm>
 #include <chrono>
 #include <utility>
@@ -49,12 +49,12 @@ struct CpuCloth {
     cpu::SheetSteps sheet;
 };
 
-/// One call with all it needs; `part` runs a piece of it.
+/// One call with its data; `part` runs a part of it.
 struct Work {
     enum class Unit { rows, springs, list, measures, values, solver, single, body } unit = Unit::values;
     std::size_t size = 0;      ///< in units
     std::size_t multiple = 1;  ///< parts begin at multiples of this
-    std::size_t weight = 1;    ///< nodes or springs in a unit, for the decision how many threads are worth it
+    std::size_t weight = 1;    ///< nodes or springs in a unit, from which the number of threads follows
     const Call* call = nullptr;
     CpuCloth* cloth = nullptr;
     const Kernels* kernels = nullptr;
@@ -105,7 +105,7 @@ struct Work {
         }
     }
 
-    /// Groups of nodes that the call asks for records of.
+    /// Groups of nodes whose records the call needs.
     std::size_t record_groups() const
     {
         return asks_for_records(call->pass) ? cloth->mesh.record_groups(*call) : 0;
@@ -217,7 +217,7 @@ public:
             constants_[c].set(grab);
             solver_constants_[c] = make_solver_constants<float>(model, input.step_length, grab);
         }
-        // A host's threads are lent for a task at a time; Pliant's own stay together for the frame.
+        // A host lends its threads for one task at a time; Pliant's own stay together for the frame.
         together_ = own_jobs_ && thread_count() > 1 && is_worth_threads();
         if (together_)
             team_.gather(*jobs_, thread_count(), [&] { run_calls(program, input); });
@@ -326,8 +326,7 @@ private:
         known_origin_ = origin;
     }
 
-    /// The step at `first`, and with it those that follow without anything between them; returns their
-    /// number.
+    /// Runs the step at `first` and the steps that follow it directly; returns their number.
     std::size_t run_sheet_steps(const Program& program, std::size_t first, const FrameInput& input)
     {
         const Call& call = program.calls[first];
@@ -369,11 +368,11 @@ private:
         run_parts(count, [&](std::size_t index) { work.part(index, count); });
     }
 
-    /// part(0) ... part(count - 1), by the threads that there are.
+    /// Runs part(0) ... part(count - 1) on the available threads.
     template <class Part>
     void run_parts(std::size_t count, const Part& part)
     {
-        if (count == 0) return;  // no gaps: one part had all
+        if (count == 0) return;  // no gaps with a single part
         if (count == 1) return part(0);
         const auto task = [](void* pointer, unsigned index) { (*static_cast<const Part*>(pointer))(index); };
         void* context = const_cast<Part*>(&part);
@@ -383,7 +382,7 @@ private:
             jobs_->run(static_cast<unsigned>(count), task, context);
     }
 
-    /// Whether any cloth has enough for two threads.
+    /// Whether any cloth has enough work for two threads.
     bool is_worth_threads() const
     {
         const std::size_t least = threads_are_asked_for_ ? 1 : 2048;
@@ -394,8 +393,8 @@ private:
         return std::any_of(cloths_.begin(), cloths_.end(),
                            [&](const CpuCloth& cloth) { return work(cloth) >= least; });
     }
-    /// Nodes or springs that make another thread worth waking: for who asks for a number of threads, hardly
-    /// any.
+    /// Nodes or springs that justify one more thread; almost none if the caller has asked for a number of
+    /// threads.
     std::size_t least_work() const { return threads_are_asked_for_ ? 64 : together_ ? 512 : 1024; }
 
     const Kernels& kernels_;
@@ -407,10 +406,10 @@ private:
     std::vector<CpuCloth> cloths_;
     std::vector<StepConstants<float>> constants_;
     std::vector<SolverConstants<float>> solver_constants_;
-    std::vector<Laws<float>::Collider> colliders_;  ///< at one step, as a cloth sees them
+    std::vector<Laws<float>::Collider> colliders_;  ///< of one step, in a cloth's coordinates
     bool colliders_known_ = false;
-    std::uint32_t known_index_ = 0;  ///< of that step
-    Vec3d known_origin_;             ///< of that cloth
+    std::uint32_t known_index_ = 0;  ///< the step of colliders_
+    Vec3d known_origin_;             ///< the cloth's origin
     PassClock clock_;
 };
 

@@ -1,6 +1,6 @@
-// What is drawn of a sheet: included by kernels.inl, inside its unnamed namespace.
+// Drawing data of a sheet: included by kernels.inl, inside its unnamed namespace.
 
-/// As PlainCloth::sheet_normals: the quads around a node, each by its corners.
+/// As PlainCloth::sheet_normals: the quads around a node, each given by its corners.
 PLIANT_IN_ONE_PIECE void sheet_normal(const SheetArguments& a, std::size_t first_row, std::size_t end_row)
 {
     const auto rows = static_cast<std::ptrdiff_t>(a.layout->rows),
@@ -30,7 +30,7 @@ PLIANT_IN_ONE_PIECE void sheet_normal(const SheetArguments& a, std::size_t first
     });
 }
 
-/// As PlainCloth::sheet_strains: the most stretched of a node's structural and shear springs.
+/// As PlainCloth::sheet_strains: the largest strain of a node's structural and shear springs.
 PLIANT_IN_ONE_PIECE void sheet_strain(const SheetArguments& a, std::size_t first_row, std::size_t end_row)
 {
     const auto rows = static_cast<std::ptrdiff_t>(a.layout->rows),

@@ -23,7 +23,7 @@ class OwnJobs final : public JobSystem {
 public:
     explicit OwnJobs(unsigned threads) : threads_(threads), arena_(static_cast<int>(threads))
     {
-        // A control holds for the whole program of our host, so it may only allow more threads, never fewer.
+        // A control applies to the host's whole process, so it may only raise the number of threads.
         if (static_cast<int>(threads) > tbb::this_task_arena::max_concurrency())
             control_.emplace(tbb::global_control::max_allowed_parallelism, threads);
     }
@@ -43,8 +43,8 @@ private:
 };
 
 #else
-/// Where there is no oneTBB; and for ThreadSanitizer, which cannot see how Debian's oneTBB hands tasks over
-/// and takes every one for a race. The tasks are the same, and a frame begins its threads but once (Team).
+/// Used without oneTBB, and under ThreadSanitizer, which reports false races in Debian's oneTBB. The tasks
+/// are the same, and a frame starts its threads only once (Team).
 class OwnJobs final : public JobSystem {
 public:
     explicit OwnJobs(unsigned threads) : threads_(threads) {}

@@ -1,5 +1,5 @@
-// Pliant's own threads: oneTBB behind the JobSystem interface. OpenMP was measured beside it on parallel
-// regions of a few microseconds and took 4 to 37 times as long (docs/performance.md).
+// Pliant's own threads: oneTBB behind the JobSystem interface. For parallel regions of a few microseconds
+// OpenMP took 4 to 37 times as long (docs/performance.md).
 #pragma once
 
 #include <memory>
@@ -8,11 +8,11 @@
 
 namespace pliant::cpu {
 
-/// A job system with that many threads; 0 means one for each core.
+/// A job system with `threads` threads; 0: one per core.
 std::unique_ptr<JobSystem> make_job_system(unsigned threads);
 
-/// While it lives, the calling thread treats denormal numbers as zero, as every task of the CPU backend does:
-/// left alone they are slow, and differ between devices.
+/// During its lifetime the calling thread treats denormal numbers as zero, as every task of the CPU backend
+/// does. Denormals are slow, and differ between devices.
 class DenormalsFlushed {
 public:
     DenormalsFlushed();

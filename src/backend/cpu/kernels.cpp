@@ -13,7 +13,7 @@ extern const Kernels kernels_lanes8, kernels_lanes16;
 
 namespace {
 
-/// Those with the fast arithmetic of an instruction set; null where there are none.
+/// The kernels with fast arithmetic for the same instruction set; null if there are none.
 const Kernels* fast_kernels([[maybe_unused]] const Kernels& exact)
 {
 #if defined(__x86_64__)
@@ -78,9 +78,9 @@ const Kernels& choose_kernels(const std::string& name, bool fast_math)
     const Kernels& exact = exact_kernels(name);
     if (!fast_math) return exact;
     if (const Kernels* fast = fast_kernels(exact)) return *fast;
-    throw Error(ErrorKind::bad_usage, "there is no fast math on the cpu backend with the instruction set " +
-                                          std::string(exact.name) +
-                                          ": it needs avx2 or avx512; leave it out");
+    throw Error(ErrorKind::bad_usage,
+                "fast math is not available on the cpu backend with the instruction set " +
+                    std::string(exact.name) + ": it needs avx2 or avx512; leave it out");
 }
 
 }  // namespace pliant::cpu

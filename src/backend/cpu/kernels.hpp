@@ -10,7 +10,7 @@
 
 namespace pliant::cpu {
 
-/// Coordinates of a set of vectors.
+/// Coordinates of several vectors.
 struct ConstVectors {
     const float *x, *y, *z;
 };
@@ -18,54 +18,55 @@ struct Vectors {
     float *x, *y, *z;
 };
 
-/// A sheet's step, wind, normals or strains; pointers are to NodeLayout planes.
+/// Arguments of a sheet's step, wind, normals and strains; pointers are to NodeLayout planes.
 struct SheetArguments {
     const NodeLayout* layout;
     ConstVectors position, velocity;
     Vectors next_position, next_velocity;
     ConstVectors external_force;  ///< x is null without air
-    Vectors wind_force;           ///< where the wind pass writes
-    Vectors normal;               ///< and that of normals
-    float* strain;                ///< and that of strains
+    Vectors wind_force;           ///< written by the wind pass
+    Vectors normal;               ///< written by the pass of normals
+    float* strain;                ///< written by the pass of strains
     const float* inverse_mass;
     const StepConstants<float>* constants;
     const Laws<float>::Collider* colliders;
     std::size_t collider_count;
 };
 
-/// Rows of a sheet, from `begin` to before `end`.
+/// Rows [begin, end) of a sheet.
 struct RowRange {
     std::ptrdiff_t begin, end;
 };
 
-/// Several steps of a sheet in one pass over its rows: a step finds its state where the one before left it.
+/// Several steps of a sheet in one pass over its rows: each step reads the result of the one before from the
+/// cache.
 struct SheetStretch {
     static constexpr std::size_t most_steps = 8;
-    /// Floats that a step needs beside the state, of a sheet with so many floats in a row with its pads.
+    /// Floats that a step needs besides the state; `row_stride`: floats in a row with padding.
     static constexpr std::size_t carried_size(std::size_t row_stride) { return 2 * 3 * row_stride; }
 
     const SheetArguments* steps;
-    const RowRange* rows;  ///< of each step
-    std::size_t count;     ///< of steps, at most `most_steps`
+    const RowRange* rows;  ///< by step
+    std::size_t count;     ///< number of steps, at most `most_steps`
     float* carried;        ///< carried_size for each step
 };
 
-/// Springs of a mesh from each node to those of higher index, in slices of 16 nodes: rows as of Slices.
+/// Springs of a mesh from each node to those of higher index, in slices of 16 nodes; rows as in Slices.
 struct MeasuredSlices {
     const std::uint32_t *start, *place;
-    const float* rest_length;          ///< m; negative where there is no spring
+    const float* rest_length;          ///< m; negative if there is no spring
     const float *stiffness, *bending;  ///< N/m
-    const float* counts;               ///< 1 of structural and shear springs, else 0
+    const float* counts;               ///< 1 for structural and shear springs, else 0
 };
 
-/// Measures of nodes, by blocks of `block_size` nodes in their order.
+/// Measures of nodes, in blocks of `block_size` consecutive nodes.
 struct MeasureArguments {
     const NodeLayout* layout;
     ConstVectors position, velocity;
     const float* state;      ///< records, of a mesh
     MeasuredSlices springs;  ///< of a mesh
     const float* inverse_mass;
-    const double* masses;  ///< kg, of each node, pinned ones too
+    const double* masses;  ///< kg, of each node, pins included
     std::size_t node_count;
     const StepConstants<float>* constants;
     const Laws<float>::Collider* colliders;
@@ -73,63 +74,62 @@ struct MeasureArguments {
     float* measures;  ///< eight numbers for each block
 };
 
-/// Floats of a node's state in a record: position and velocity, with a pad behind each (records.hpp); and of
-/// a vector.
+/// Floats in a record of a node's state, position and velocity, each padded (records.hpp); and in a vector.
 constexpr std::size_t state_size = 8, vector_size = 4;
 
-/// The state of nodes, from planes to records.
+/// Copies the state of nodes from planes to records.
 struct RecordArguments {
     ConstVectors position, velocity;
     float* state;
 };
 
-/// Forces of springs, whose ends are places of records, in floats. All arrays are padded to multiples of 32
-/// with springs of no length, and `first` and `end` of a call are such, too.
+/// Forces of springs. The ends of a spring are offsets of records, in floats. All arrays are padded to
+/// multiples of 32 with springs of length zero; `first` and `end` of a call are multiples of 32, too.
 struct SpringArguments {
     const float* state;  ///< records
     float* force;        ///< vectors
     const std::uint32_t *first, *second;
     const float *rest_length, *stiffness, *damping;
-    const float* bending;  ///< null where all are 0
+    const float* bending;  ///< null if all are 0
 };
 
-/// Rows of 16 lanes: the k-th entry of each of 16 neighbouring nodes or fans. Slice s has the rows from
-/// start[s] to start[s + 1]; entries are places of records, in floats.
+/// Rows of 16 lanes: the k-th entries of 16 neighbouring nodes or fans. Slice s has the rows from start[s] to
+/// start[s + 1]; entries are offsets of records, in floats.
 struct Slices {
     static constexpr std::size_t lanes = 16;
     const std::uint32_t* start;
     const std::uint32_t* place;
-    const float* rest_length;  ///< m; negative where there is no spring. Null for fans.
+    const float* rest_length;  ///< m; negative if there is no spring. Null for fans.
 };
 
-/// Up to 16 nodes side by side in the planes: those of slice s.
+/// Up to 16 consecutive nodes in the planes: those of slice s.
 struct NodeRun {
     std::uint32_t offset, count;
 };
 
-/// A step from the forces of springs. `springs` has the place of a vector for each entry of a slice, in
-/// floats, and one more where it is subtracted.
+/// A step from the forces of springs. `springs` has for each entry of a slice the offset of a vector, in
+/// floats; plus one if the vector is subtracted.
 struct ListArguments {
     const NodeRun* runs;
     const std::uint32_t *start, *springs;
-    const float* force;  ///< vectors, of springs; behind the last one a vector of 0
+    const float* force;  ///< vectors, by spring; after the last one a zero vector
     ConstVectors position, velocity;
     Vectors next_position, next_velocity;
     float* next_state;            ///< records
-    ConstVectors external_force;  ///< x is null without any
+    ConstVectors external_force;  ///< x is null if there is none
     const float* inverse_mass;
     const StepConstants<float>* constants;
     const Laws<float>::Collider* colliders;
     std::size_t collider_count;
 };
 
-/// What a step of a body has found out about it as a whole.
+/// Results of a step's sums over a whole body.
 struct BodyNumbers {
     Vector3<float> mean, centre;
-    float multiplier, pressure;  ///< q, or s of the correction; a sixth of the pressure
+    float multiplier, pressure;  ///< q, or s of the correction; a sixth of the pressure, Pa
 };
 
-/// Values that a pass leaves to be merged: by number, 16 lanes each.
+/// Values of a pass before they are merged: by number, 16 lanes each.
 constexpr std::size_t body_sum_count = 8;
 struct LaneSums {
     float lanes[body_sum_count][Slices::lanes];
@@ -139,16 +139,16 @@ struct LaneSums {
 struct BodyArguments {
     ConstVectors position, velocity;
     Vectors next_position, next_velocity;
-    ConstVectors external_force;  ///< x is null without any
+    ConstVectors external_force;  ///< x is null if there is none
     const float* state;           ///< records of the current state
     float* next_state;
     float* ends;  ///< records of the next position and of the direction
     Vectors gradient, direction, blocked;
     float* blocked_count;
-    /// By block of nodes: 1 where some node is blocked. Elsewhere the planes hold zeros, and nobody reads or
-    /// writes them.
+    /// By block of nodes: 1 if any node is blocked. If none is, the planes are zero and are neither read nor
+    /// written.
     std::uint8_t* any_blocked;
-    const float *inverse_mass, *weight;  ///< weight is null where all are 1
+    const float *inverse_mass, *weight;  ///< weight is null if all are 1
     std::size_t first_offset;            ///< of node 0
     const BodyBlock* blocks;             ///< of nodes, or of fans
     Slices ring, links, fans;            ///< 16 slices for each block
@@ -172,20 +172,21 @@ struct Kernels {
     void (*spring_forces)(const SpringArguments&, std::size_t first, std::size_t end);
     void (*list_step)(const ListArguments&, std::size_t first_slice, std::size_t end_slice);
     BodyKernel ring_step, volume_gather, volume_step, volume_cubic, volume_correct;
-    /// Rows or groups of a pass of the constraint solver.
+    /// Runs rows or groups of a pass of the constraint solver.
     void (*solve)(const SolverContext<float>&, const Call&, int first, int end);
-    /// The records that such a pass asks for on a mesh, of groups of nodes: asks_for_records.
+    /// Makes the records that such a pass needs on a mesh, for groups of nodes: asks_for_records.
     void (*solver_records)(const SolverContext<float>&, const Call&, int first, int end);
 };
 
-/// Those this build has and this machine can run, narrowest first; never empty.
+/// Kernels in this build that this machine can run, narrowest first; never empty.
 std::span<const Kernels* const> available_kernels();
-/// Wider ones by what every machine has, slow and of the same bits: for tests, which therefore see all widths
-/// wherever they run. Only by name; empty in a build without them (PLIANT_EVERY_WIDTH of CMakeLists.txt).
+/// Wide kernels made of the baseline instruction set: slow, with the same bits. Tests use them to cover all
+/// widths on every machine. Chosen only by name; empty in a build without PLIANT_EVERY_WIDTH
+/// (CMakeLists.txt).
 std::span<const Kernels* const> test_kernels();
-/// By name, or the widest for an empty name; throws Error(bad_usage) that lists the names of this machine.
-/// With `fast_math` those of the same instruction set whose results are not the same everywhere; throws where
-/// there are none (sse2, and other architectures).
+/// Kernels by name, or the widest for an empty name. Throws Error(bad_usage), which lists the names of this
+/// machine. With `fast_math`, the kernels of the same instruction set whose results differ between machines;
+/// throws if there are none (sse2, and other architectures).
 const Kernels& choose_kernels(const std::string& name, bool fast_math = false);
 
 }  // namespace pliant::cpu

@@ -1,7 +1,6 @@
-// The kernels themselves. Included by one file per instruction set, which defines PLIANT_LANES and
-// PLIANT_KERNELS. Everything is in an unnamed namespace and uses nothing of the standard library: what is
-// compiled here with wide instructions must not be shared with files that run before the instruction set is
-// known.
+// The kernels. Included by one file per instruction set, which defines PLIANT_LANES and PLIANT_KERNELS.
+// Everything is in an unnamed namespace and uses nothing of the standard library: code compiled here with
+// wide instructions must not be shared with files that run before the instruction set is chosen.
 #include "backend/cpu/kernels.hpp"
 #include "backend/cpu/pack.hpp"
 #include "backend/cpu/records.hpp"
@@ -39,10 +38,10 @@ inline L::mask lanes_on_sheet(std::ptrdiff_t column, std::ptrdiff_t columns)
 
 struct Block {
     std::ptrdiff_t row, column, offset;
-    bool interior;  ///< the neighbours of all lanes that the pass looks at are on the sheet
+    bool interior;  ///< the neighbours of all lanes are on the sheet
 };
 
-// As NodeLayout::offset, whose own code must not be compiled here.
+// As NodeLayout::offset, which must not be compiled in this file.
 inline std::ptrdiff_t offset_of(const NodeLayout& layout, std::ptrdiff_t row, std::ptrdiff_t column)
 {
     const auto border = static_cast<std::ptrdiff_t>(NodeLayout::border_rows);
@@ -64,7 +63,7 @@ inline void for_each_block(const SheetArguments& a, std::size_t first_row, std::
 
 /// Triangles around a node of a sheet in the order of ClothModel::triangles, by offsets of (row, column).
 struct SheetTriangle {
-    int quad_row, quad_column;  ///< of the quad's first corner, against the node
+    int quad_row, quad_column;  ///< of the quad's first corner, relative to the node
     bool lower;                 ///< (b, c, d) of the quad, else (a, c, b)
 };
 constexpr SheetTriangle sheet_triangles[6] = {{-1, -1, true}, {-1, 0, false}, {-1, 0, true},
@@ -100,7 +99,7 @@ void sheet_wind(const SheetArguments& a, std::size_t first_row, std::size_t end_
     });
 }
 
-/// A pack of nodes at the end of a step: forces, integration, and what colliders have to say.
+/// Ends the step of a pack of nodes: forces, integration, contact.
 template <class Arguments>
 PLIANT_INLINE L::Motion stepped(const Arguments& a, const L::Motion& now, const Vector& force,
                                 const Number& inverse_mass)
@@ -128,7 +127,7 @@ PLIANT_INLINE L::Motion stepped(const Arguments& a, const L::Motion& now, const 
 #include "backend/cpu/body_kernels.inl"
 
 #if PLIANT_FAST_MATH
-constexpr auto solve = nullptr, solver_records = nullptr;  // the solver's arithmetic is exact in any case
+constexpr auto solve = nullptr, solver_records = nullptr;  // the solver has exact arithmetic only
 #else
 void solve(const SolverContext<float>& context, const Call& call, int first, int end)
 {

@@ -1,4 +1,4 @@
-// 8 lanes with the machine's estimate of inverse square roots, and products fused with sums (CMakeLists.txt).
+// 8 lanes, with the machine's estimate of inverse square roots and fused multiply-add (CMakeLists.txt).
 #define PLIANT_PACKS packs_of_avx2_fast
 #define PLIANT_FAST_MATH 1
 #define PLIANT_LANES 8

@@ -1,5 +1,4 @@
-// 16 lanes with the machine's estimate of inverse square roots, and products fused with sums
-// (CMakeLists.txt).
+// 16 lanes, with the machine's estimate of inverse square roots and fused multiply-add (CMakeLists.txt).
 #define PLIANT_PACKS packs_of_avx512_fast
 #define PLIANT_FAST_MATH 1
 #define PLIANT_LANES 16

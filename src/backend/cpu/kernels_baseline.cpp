@@ -1,7 +1,7 @@
 // 4 lanes; see kernels.inl, and CMakeLists.txt for the flags of this file.
 #define PLIANT_LANES 4
 #define PLIANT_KERNELS kernels_baseline
-// The instruction set that every machine of this architecture has.
+// The baseline instruction set of the architecture.
 #if defined(__x86_64__)
 #define PLIANT_KERNELS_NAME "sse2"
 #elif defined(__aarch64__)

@@ -1,5 +1,5 @@
-// 16 lanes by what every machine of this architecture has, so that tests see all widths everywhere; see
-// kernels.inl, and CMakeLists.txt for the flags of this file.
+// 16 lanes in the baseline instruction set, so that tests cover all widths on every machine; see kernels.inl,
+// and CMakeLists.txt for the flags of this file.
 #define PLIANT_PACKS packs_of_lanes
 #define PLIANT_FUNCTIONS_APART 1
 #define PLIANT_LANES 16

@@ -1,7 +1,7 @@
-// Kernels of meshes, and of sheets whose springs are a list: included by kernels.inl, inside its unnamed
-// namespace.
+// Kernels of meshes, and of sheets in the formulation spring_list: included by kernels.inl, inside its
+// unnamed namespace.
 
-/// Stores the first lanes: behind them something else may begin.
+/// Stores the first lanes only: other data may follow.
 inline void store_some(float* to, const Number& a, std::ptrdiff_t lanes)
 {
     if (lanes >= width) return a.store(to);
@@ -16,7 +16,7 @@ inline void store_some(const Vectors& to, std::ptrdiff_t offset, const Vector& a
     store_some(to.z + offset, a.z, lanes);
 }
 
-/// The vectors at `place`, in floats.
+/// Gathers the vectors at `place`, in floats.
 PLIANT_INLINE Vector gather_vectors(const float* records, const std::uint32_t* place)
 {
     return vectors_from_quads<width>(
@@ -26,7 +26,7 @@ PLIANT_INLINE L::Motion gather_states(const float* records, const std::uint32_t*
 {
     return {gather_vectors(records, place), gather_vectors(records + vector_size, place)};
 }
-/// The first vectors of a pack, one behind the other, `stride` floats apart.
+/// Stores the first vectors of a pack, `stride` floats apart.
 template <std::size_t stride>
 PLIANT_INLINE void store_vectors(float* records, const Vector& a, std::ptrdiff_t lanes)
 {
@@ -38,7 +38,7 @@ PLIANT_INLINE void store_vectors(float* records, const Vector& a, std::ptrdiff_t
         if (lane < lanes) store_lane(lane, quad);
     });
 }
-/// Two vectors for each node from `offset` on.
+/// Stores two vectors for each node from `offset` on.
 PLIANT_INLINE void store_records(float* records, std::ptrdiff_t offset, const Vector& a, const Vector& b,
                                  std::ptrdiff_t lanes)
 {
@@ -47,7 +47,7 @@ PLIANT_INLINE void store_records(float* records, std::ptrdiff_t offset, const Ve
     store_vectors<state_size>(to + vector_size, b, lanes);
 }
 
-/// In packs of 16 nodes, those of padding as well.
+/// Makes records in packs of 16 nodes, including padding.
 PLIANT_IN_ONE_PIECE void record_states(const RecordArguments& a, std::size_t first, std::size_t end)
 {
     for (std::size_t k = first; k < end; k += width) {
@@ -56,14 +56,14 @@ PLIANT_IN_ONE_PIECE void record_states(const RecordArguments& a, std::size_t fir
     }
 }
 
-/// Springs on their way to their forces, in three sweeps: what is between their ends, their lengths, their
-/// forces. In one go a spring is a chain of a hundred cycles, of which a core holds but two at a time; a
-/// sweep has short ones.
+/// The forces of springs, in three sweeps: differences of their ends, lengths, forces. Computed at once, a
+/// spring is a dependency chain of a hundred cycles, and a core overlaps only two of these. The chains of a
+/// sweep are short.
 class SpringSweeps {
 public:
-    static constexpr std::size_t most = 128;  ///< springs at a time
+    static constexpr std::size_t most = 128;  ///< springs per batch
 
-    /// First sweep, of a pack: d = x_j - x_i and v_j - v_i.
+    /// First sweep, for a pack: d = x_j - x_i and v_j - v_i.
     PLIANT_INLINE void set(std::size_t k, const Vector& d, const Vector& relative_velocity)
     {
         d.x.store(d_[0] + k);
@@ -78,11 +78,11 @@ public:
     {
         return {Number::load(d_[0] + k), Number::load(d_[1] + k), Number::load(d_[2] + k)};
     }
-    /// Second sweep, of so many springs, a multiple of 16.
+    /// Second sweep, for `count` springs, a multiple of 16.
     PLIANT_INLINE void find_lengths(std::size_t count)
     {
         std::size_t k = 0;
-        for (; k + 4 * width <= count; k += 4 * width) {  // four chains that fill each other's waits
+        for (; k + 4 * width <= count; k += 4 * width) {  // four independent chains hide latency
             const Number a = L::inverse_sqrt(Number::load(length2_ + k)),
                          b = L::inverse_sqrt(Number::load(length2_ + k + width)),
                          c = L::inverse_sqrt(Number::load(length2_ + k + 2 * width)),
@@ -94,7 +94,7 @@ public:
         }
         for (; k < count; k += width) L::inverse_sqrt(Number::load(length2_ + k)).store(inverse_length_ + k);
     }
-    /// Third sweep, of a pack.
+    /// Third sweep, for a pack.
     PLIANT_INLINE Vector force(std::size_t k, const Number& rest_length, const Number& stiffness,
                                const Number& damping) const
     {
@@ -135,7 +135,7 @@ PLIANT_IN_ONE_PIECE void spring_forces(const SpringArguments& a, std::size_t fir
 PLIANT_IN_ONE_PIECE void list_step(const ListArguments& a, std::size_t first_slice, std::size_t end_slice)
 {
     using Bits = LaneTypes<width>::Bits;
-    /// The force of an entry of each lane, with its sign.
+    /// The force of an entry in each lane, with its sign.
     const auto force_of = [&](const std::uint32_t* entry) {
         Vector f = vectors_from_quads<width>(
             [&](int lane) { return *reinterpret_cast<const Quad*>(a.force + (entry[lane] & ~1u)); });

@@ -1,9 +1,9 @@
 // Measures at the end of a frame: included by kernels.inl.
 
-/// Measures of the nodes of a block, by number: what the fixed tree merges.
+/// Measures of the nodes of a block, by number: the input of the fixed tree.
 struct BlockMeasures {
     static constexpr int numbers = 8;
-    float values[numbers][block_size + 16];  // a pack may be read and written beyond the end
+    float values[numbers][block_size + 16];  // padding: a pack may be read and written beyond the end
 
     L::Measure at(std::size_t k) const
     {
@@ -36,7 +36,7 @@ inline L::Measure chosen(L::mask m, const L::Measure& a, const L::Measure& b)
     return c;
 }
 
-/// Forward springs of a pack of nodes, so that each is counted once.
+/// Forward springs of a pack of nodes: each spring is counted once.
 inline L::Measure measured_springs(const MeasureArguments& a, const Block& block, const Vector& x)
 {
     const StepConstants<float>& c = *a.constants;
@@ -59,8 +59,8 @@ inline L::Measure measured_springs(const MeasureArguments& a, const Block& block
     return m;
 }
 
-/// With what a pack's nodes have beside springs: `node` is the first; lanes beyond the last are of no
-/// meaning.
+/// Adds the measures of a pack's nodes themselves. `node` is the first; lanes after the last node are
+/// undefined.
 inline L::Measure with_nodes(const MeasureArguments& a, L::Measure m, std::size_t node, std::ptrdiff_t offset,
                              const Vector& x)
 {
@@ -79,8 +79,8 @@ inline L::Measure with_nodes(const MeasureArguments& a, L::Measure m, std::size_
     return m;
 }
 
-/// The fixed tree over the first `count` measures of a block: halves are added to each other. Below a pack,
-/// the lanes behind the half are of no meaning.
+/// The fixed tree over the first `count` measures of a block, by adding halves. Below the width of a pack,
+/// lanes after the half are undefined.
 inline void merge_block(BlockMeasures& measures, std::size_t count, float* to)
 {
     for (std::size_t k = count; k < block_size; k += width) measures.set(k, L::measure_of_nothing());
@@ -98,7 +98,7 @@ PLIANT_IN_ONE_PIECE void sheet_measure(const MeasureArguments& a, std::size_t fi
     for (std::size_t block = first_block; block < end_block; ++block) {
         const std::size_t first = block * block_size;
         const std::size_t end = first + block_size < a.node_count ? first + block_size : a.node_count;
-        // Pieces of rows, in order: what a pack writes beyond the end of its piece, the next one corrects.
+        // Pieces of rows, in order: the next piece overwrites what a pack writes beyond the end of its own.
         for (std::size_t node = first; node < end;) {
             const std::size_t row = node / columns,
                               row_end = (row + 1) * columns < end ? (row + 1) * columns : end;

@@ -1,4 +1,4 @@
-// Springs of a mesh as the kernel that measures them wants them.
+// Springs of a mesh in the data layout of the measuring kernel.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@ namespace pliant::cpu {
 
 class MeasuredSprings {
 public:
-    /// Nothing for a sheet.
+    /// Empty for a sheet.
     explicit MeasuredSprings(const PlainCloth<float>& cloth);
 
     MeasuredSlices view() const

@@ -11,7 +11,7 @@ namespace pliant::cpu {
 namespace {
 
 constexpr std::int32_t lanes = LaneTable::lanes;
-/// Added to what may be -0 it changes nothing: a block of -0 times a difference of 0, and 0 times -0, are -0.
+/// Adding it changes nothing, not even -0: a block of -0 times a difference of 0 is -0, and so is 0 times -0.
 constexpr float nothing = -0.0f;
 
 std::int32_t whole_slices(std::int32_t count) { return (count + lanes - 1) / lanes * lanes; }
@@ -19,7 +19,7 @@ std::int32_t whole_slices(std::int32_t count) { return (count + lanes - 1) / lan
 /// The block of a level that couples nothing (Hierarchy::append_mesh_level).
 std::int32_t empty_block(const SolverLevel& level) { return level.edges + level.columns; }
 
-/// Which end of its spring to a neighbour a node is: 1 the first, -1 the second.
+/// 1 if the node is the first end of its spring to the neighbour, -1 if the second.
 float side_of(std::int32_t node, std::int32_t neighbour) { return neighbour < node ? -1.0f : 1.0f; }
 
 }  // namespace
@@ -152,7 +152,7 @@ void MeshTables::add_springs(MeshLanes& of, const SolverLevel& level)
     };
     of.held = springs_by_node(level.held_start);
     of.loose = springs_by_node(level.loose_start);
-    if (level.folds())  // without the spring itself, which comes first
+    if (level.folds())  // without the spring itself, which is the first entry
         of.folds =
             make_table(
                 level.loose,
@@ -192,7 +192,7 @@ void MeshTables::add_springs(MeshLanes& of, const SolverLevel& level)
     of.spring_class = keep(std::move(classes));
 }
 
-/// A table of the rows that `order` names, of pairs (place, weight); places are factor (place - offset).
+/// A table of the rows in `order`, of pairs (place, weight); a place is stored as factor (place - offset).
 LaneTable MeshTables::weighted(std::int32_t count, std::int32_t start, const std::vector<std::int32_t>& order,
                                std::int32_t offset, std::int32_t factor, std::int32_t filler)
 {
@@ -214,11 +214,11 @@ void MeshTables::add_transfers(MeshLanes& of, const SolverLevel& level, const So
 {
     of.parents = weighted(finer.columns, level.parents_start, {}, Hierarchy::offset(level, 0, 0),
                           MeshLanes::vector_size, MeshLanes::vector_size * whole_slices(level.columns));
-    // Behind the nodes there is a record of 0, and behind the blocks an empty one.
+    // A zero record follows the nodes, and an empty block the blocks.
     of.children =
         weighted(level.columns, level.children_start, {}, Hierarchy::offset(finer, 0, 0), 1, finer.columns);
 
-    // Edges of as many sources side by side, within groups that passes are divided into.
+    // Sorts edges by their number of sources, within the groups into which passes are divided.
     std::vector<std::int32_t> order(static_cast<std::size_t>(level.edges));
     std::iota(order.begin(), order.end(), 0);
     const auto source_count = [&](std::int32_t e) {

@@ -1,4 +1,4 @@
-// The tables of a mesh for packs, made from those of its hierarchy: see backend/host/mesh_lanes.hpp.
+// The tables of a mesh for packs, made from its hierarchy: see backend/host/mesh_lanes.hpp.
 #pragma once
 
 #include <cstdint>
@@ -15,12 +15,11 @@ namespace pliant::cpu {
 
 class MeshTables {
 public:
-    /// Empty for what is no mesh, and for the solver paper. Leaves in `solver` the blocks that couple
-    /// nothing.
+    /// Empty for a sheet, and for the paper's solver. Writes the empty blocks into `solver`.
     MeshTables(const Hierarchy& hierarchy, SolverState<float>& solver);
 
     bool empty() const { return levels_.empty(); }
-    /// Of a call, the groups of nodes whose records it asks for.
+    /// The number of groups of nodes whose records a call needs.
     std::size_t record_groups(const Call& call) const;
 
 private:
@@ -34,7 +33,7 @@ private:
         LaneTable lanes;
         const std::int32_t* edges = nullptr;
     };
-    /// row_of(k) appends what row k has; filler(k) is what a lane has that is out of entries.
+    /// row_of(k) appends the entries of row k; filler(k) is the entry that pads its lane.
     Table make_table(std::int32_t count, const std::function<void(std::int32_t, Row&)>& row_of,
                      const std::function<Entry(std::int32_t)>& filler);
     /// Calls function(first, second) for the pairs of a row of the hierarchy's topology.

@@ -1,7 +1,7 @@
-// W floats that are computed at once: a thin layer over the compilers' vector extension, which turns into
-// SSE, AVX, AVX-512 or NEON instructions by the flags of the file that includes it; where a machine has no
-// registers of W lanes, the compiler takes several. A file with flags of its own has packs of its own, so
-// that no instruction set leaks into another through shared templates.
+// W floats that are computed at once: a thin layer over the compilers' vector extension, which becomes SSE,
+// AVX, AVX-512 or NEON instructions by the flags of the including file. Without registers of W lanes the
+// compiler uses several. Each file with its own flags has its own types of packs; otherwise shared templates
+// would leak an instruction set into other files.
 #pragma once
 
 #include <cstdint>
@@ -15,12 +15,12 @@
 #include "backend/host/lanes.hpp"
 #include "laws/laws.hpp"
 
-/// Where all packs of a file are, and by their names all functions that are made of them.
+/// The namespace of a file's packs, and thus of all functions that use them.
 #if !defined(PLIANT_PACKS)
 #define PLIANT_PACKS packs_of_baseline
 #endif
 
-/// 1 in files whose arithmetic is fast and not the same everywhere (SimulationOptions::fast_math).
+/// 1 in files with fast arithmetic, whose results differ between machines (SimulationOptions::fast_math).
 #if !defined(PLIANT_FAST_MATH)
 #define PLIANT_FAST_MATH 0
 #endif
@@ -28,7 +28,7 @@
 namespace pliant {
 inline namespace PLIANT_PACKS {
 
-/// The compiler's vector types. Spelled out, because GCC applies vector_size too late when the size is a
+/// The compiler's vector types. Spelled out, since GCC applies vector_size too late if the size is a template
 /// parameter.
 template <int W>
 struct LaneTypes;
@@ -60,7 +60,7 @@ struct Pack {
     Pack() = default;
     PLIANT_SMALL Pack(Lanes a) : lanes(a) {}
     PLIANT_SMALL Pack(float a) : lanes(a - Lanes{}) {}
-    Pack(double) = delete;  // a literal without f, or a narrowing, does not belong in a law
+    Pack(double) = delete;  // a literal without f, or a narrowing, is an error in a law
 
     PLIANT_SMALL static Pack load(const float* p)
     {
@@ -85,7 +85,7 @@ struct NumberTraits<Pack<W>> {
     using Mask = PackMask<W>;
     using Bits = typename LaneTypes<W>::Bits;
 #if PLIANT_FAST_MATH
-    /// From the machine's own estimate, good to 12 bits, one step reaches rounding.
+    /// The machine's estimate has 12 bits; one step then reaches rounding.
     static constexpr int inverse_sqrt_steps = 1;
 #else
     static constexpr int inverse_sqrt_steps = NumberTraits<float>::inverse_sqrt_steps;
@@ -94,7 +94,7 @@ struct NumberTraits<Pack<W>> {
     PLIANT_SMALL static Number inverse_sqrt_seed(Number a)
     {
 #if PLIANT_FAST_MATH
-        // Of 0, too, a finite number: that of the smallest normal one.
+        // Also finite for 0: the value of the smallest normal number.
         const Number b = a.lanes > 0x1p-126f ? a.lanes : Number(0x1p-126f).lanes;
 #if defined(__AVX512F__)
         if constexpr (W == 16)
@@ -131,8 +131,8 @@ struct NumberTraits<Pack<W>> {
 
 inline namespace PLIANT_PACKS {
 
-/// N packs at once: instructions of N chains by turns, so that one fills the waits of the others. Members and
-/// not an array, which GCC would leave in memory.
+/// N packs at once: interleaves N independent chains to hide latency. Members instead of an array, which GCC
+/// would keep in memory.
 template <class P, int N>
 struct Group {
     using Rest = Group<P, N - 1>;
@@ -148,7 +148,7 @@ struct Group {
     Group(float a) : first(a), rest(a) {}
     Group(double) = delete;
 
-    /// The members f.template operator()<k>(), from k = begin on.
+    /// Calls f.template operator()<k>() for the members from k = begin on.
     template <int begin = 0, class Function>
     static PLIANT_INLINE Group of(const Function& f)
     {
@@ -224,7 +224,7 @@ struct NumberTraits<Group<P, N>> {
 
 inline namespace PLIANT_PACKS {
 
-/// Lane k of the result is lane Place::of(k) of a, or of b behind it.
+/// Lane k of the result is lane Place::of(k) of a followed by b.
 template <class Place, class Floats, int... k>
 PLIANT_INLINE Floats shuffled(Floats a, Floats b, std::integer_sequence<int, k...>)
 {
@@ -236,8 +236,8 @@ PLIANT_INLINE Floats shuffled(Floats a, Floats b)
     return shuffled<Place>(a, b, std::make_integer_sequence<int, W>());
 }
 
-/// Every second lane from `first`, 0 or 1, on: of a, then of b. With 8 lanes in two steps, of which none
-/// crosses halves and moves lanes of both.
+/// Every second lane of a, then of b, from `first`, 0 or 1, on. For 8 lanes in two steps, since no single
+/// instruction crosses halves and also moves lanes of both inputs.
 template <int first>
 struct SecondLane {
     static consteval int of(int k) { return first + 2 * k; }
@@ -260,7 +260,7 @@ PLIANT_INLINE Floats second_lanes(Floats a, Floats b)
     }
 }
 
-/// By turns a lane of a and one of b, from lane `first` on.
+/// Interleaves the lanes of a and b, from lane `first` on.
 template <int W, int first>
 struct LaneByTurns {
     static consteval int of(int k) { return first + k / 2 + k % 2 * W; }

@@ -1,4 +1,4 @@
-// Planes of vectors as the kernels take them.
+// Pointers to planes of vectors, for kernels.
 #pragma once
 
 #include "backend/cpu/kernels.hpp"

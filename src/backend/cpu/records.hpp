@@ -1,5 +1,5 @@
-// Packs of vectors that lie node by node: four floats each, the last of them padding. A gather then takes one
-// load for a vector, where planes take one for each of its numbers, and touches one cache line for a node.
+// Packs of vectors stored node by node: four floats each, the last of them padding. A gather then needs one
+// load and one cache line per vector; planes need one of each per coordinate.
 #pragma once
 
 #include "backend/cpu/pack.hpp"
@@ -9,7 +9,7 @@ inline namespace PLIANT_PACKS {
 
 typedef float Quad __attribute__((vector_size(16)));
 
-/// Lanes i0 ... i3 of each quad of a (0 to 3) and of b (4 to 7), quad by quad.
+/// Lanes i0 ... i3 of each quad of a (0 to 3) and b (4 to 7), quad by quad.
 template <int W, int i0, int i1, int i2, int i3>
 struct LaneOfQuads {
     static consteval int of(int k)
@@ -24,18 +24,18 @@ PLIANT_INLINE Floats quads_of(Floats a, Floats b)
     return shuffled<W, LaneOfQuads<W, i0, i1, i2, i3>>(a, b);
 }
 
-/// a, and behind it b.
+/// a followed by b.
 PLIANT_INLINE auto two_quads(const Quad& a, const Quad& b)
 {
 #if defined(__AVX__)
-    // GCC 12 does not load into the upper half by itself.
+    // GCC 12 does not combine the load with the insertion.
     return LaneTypes<8>::Floats(_mm256_insertf128_ps(_mm256_castps128_ps256(a), b, 1));
 #else
     return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
 #endif
 }
 
-/// The quads of lanes `first`, first + 4, ..., one behind the other: f(lane) is a quad.
+/// The quads of lanes `first`, first + 4, ..., concatenated; f(lane) is a quad.
 template <int W, int first, class Function>
 PLIANT_INLINE typename LaneTypes<W>::Floats every_fourth_quad(const Function& f)
 {
@@ -45,7 +45,7 @@ PLIANT_INLINE typename LaneTypes<W>::Floats every_fourth_quad(const Function& f)
         return two_quads(f(first), f(first + 4));
     } else {
 #if defined(__AVX512F__)
-        // From memory each is a load that goes to any port; of halves put together GCC makes shuffles.
+        // Loads from memory use any port; combining halves would make GCC emit shuffles.
         __m512 quads = _mm512_castps128_ps512((__m128)f(first));
         quads = _mm512_insertf32x4(quads, (__m128)f(first + 4), 1);
         quads = _mm512_insertf32x4(quads, (__m128)f(first + 8), 2);
@@ -57,12 +57,12 @@ PLIANT_INLINE typename LaneTypes<W>::Floats every_fourth_quad(const Function& f)
     }
 }
 
-/// Four packs, or the four numbers of each lane's quad.
+/// Four packs: the four numbers of each lane's quad.
 template <int W>
 struct QuadPacks {
     Pack<W> x, y, z, w;
 };
-/// Of quads of lanes, where r0 has those of every fourth lane from 0 on, r1 from 1 on ...
+/// Transposes quads of lanes; r0 has those of every fourth lane from 0 on, r1 from 1 on, ...
 template <int W, class Floats>
 PLIANT_INLINE QuadPacks<W> packs_of_rows(Floats r0, Floats r1, Floats r2, Floats r3)
 {
@@ -80,13 +80,13 @@ PLIANT_INLINE QuadPacks<W> packs_from_quads(const Function& f)
     return packs_of_rows<W>(r0, r1, r2, r3);
 }
 
-/// Two quads of each lane.
+/// Two quads per lane.
 template <int W>
 struct TwoQuadPacks {
     QuadPacks<W> first, second;
 };
-/// f(lane) and g(lane) are quads of a lane, by turns: what a lane's place is made of is in few registers
-/// then.
+/// f(lane) and g(lane) are quads of a lane, called alternately so that addresses of a lane need few
+/// registers.
 template <int W, class First, class Second>
 PLIANT_INLINE TwoQuadPacks<W> packs_from_two_quads(const First& f, const Second& g)
 {
@@ -97,7 +97,7 @@ PLIANT_INLINE TwoQuadPacks<W> packs_from_two_quads(const First& f, const Second&
     return {packs_of_rows<W>(r0, r1, r2, r3), packs_of_rows<W>(s0, s1, s2, s3)};
 }
 
-/// Eight floats of each lane that lie together: f(lane) is the first four and, behind them, the others.
+/// Eight consecutive floats of each lane: f(lane) is the first four, followed by the others.
 template <int W, int first>
 struct QuadsOfOctets {
     static consteval int of(int k) { return (k / 4 % 2 * 8) + (k / 8 * W) + 4 * first + k % 4; }
@@ -141,7 +141,7 @@ PLIANT_INLINE Vector3<Pack<W>> vectors_from_quads(const Function& f)
     return {packs.x, packs.y, packs.z};
 }
 
-/// The quads of lanes as packs_of_rows has them.
+/// The quads of lanes, in the order of packs_of_rows.
 template <int W>
 struct QuadRows {
     typename LaneTypes<W>::Floats rows[4];
@@ -156,7 +156,7 @@ PLIANT_INLINE QuadRows<W> rows_of_packs(const QuadPacks<W>& a)
     return {{quads_of<W, 0, 1, 4, 5>(xy01, zw01), quads_of<W, 2, 3, 6, 7>(xy01, zw01),
              quads_of<W, 0, 1, 4, 5>(xy23, zw23), quads_of<W, 2, 3, 6, 7>(xy23, zw23)}};
 }
-/// Leaves a lane's quad with f(lane, quad).
+/// Calls f(lane, quad) with each lane's quad.
 template <int W, class Function>
 PLIANT_INLINE void quads_from_packs(const QuadPacks<W>& a, const Function& f)
 {
@@ -173,7 +173,7 @@ PLIANT_INLINE void quads_from_packs(const QuadPacks<W>& a, const Function& f)
         }
     }
 }
-/// The quads of lanes one behind the other: f(k, floats) is left with the k-th W floats.
+/// Calls f(k, floats) with the quads of lanes in order: the k-th W floats.
 template <int W>
 struct LowQuadsByTurns {
     static consteval int of(int k) { return k / 4 % 2 * W + k / 8 * 4 + k % 4; }
@@ -202,7 +202,7 @@ PLIANT_INLINE void quads_in_a_row(const QuadPacks<W>& a, const Function& f)
             f(2 + k / 2, __builtin_shufflevector(rows[k], rows[k + 1], 4, 5, 6, 7, 12, 13, 14, 15));
         }
     } else {
-        // Of every fourth lane by pairs, and then pairs of those.
+        // Pairs of every fourth lane, then pairs of these.
         const auto low01 = shuffled<W, LowQuadsByTurns<W>>(rows[0], rows[1]),
                    low23 = shuffled<W, LowQuadsByTurns<W>>(rows[2], rows[3]),
                    high01 = shuffled<W, HighQuadsByTurns<W>>(rows[0], rows[1]),
@@ -220,8 +220,8 @@ PLIANT_INLINE void quads_from_vectors(const Vector3<Pack<W>>& a, const Function&
     quads_from_packs<W>({a.x, a.y, a.z, Pack<W>(0.0f)}, f);
 }
 
-/// Of 16 lanes, pairs of numbers a, b and c of 8 lanes, one lane behind the other: the k-th 16 floats, first
-/// without c.
+/// For 16 lanes, pairs of numbers a, b and c of 8 lanes, lane after lane: the k-th 16 floats, first without
+/// c.
 template <int part>
 struct PairsInARow {
     static consteval int of(int k)
@@ -270,7 +270,7 @@ struct Records<Pack<W>> {
     {
         return vectors_from_quads<W>([&](int lane) { return quad(records + stride * place[lane]); });
     }
-    /// Of records of eight floats, what the first vector of `to` is beyond that of `from`, and the second.
+    /// Of two records of eight floats: the difference of the first vectors, and the second vectors.
     struct TwoVectors {
         Vector first, second;
     };
@@ -297,7 +297,7 @@ struct Records<Pack<W>> {
                                      [&](int k, const T& floats) { floats.store(records + W * k); });
         quads_from_vectors<W>(a, [&](int lane, const Quad& values) { put(records + stride * lane, values); });
     }
-    /// `stride` floats from a place to the next.
+    /// `stride`: floats from one place to the next.
     template <int stride>
     static PLIANT_INLINE FourNumbers<T> fours(const float* records, const std::int32_t* place)
     {
@@ -330,7 +330,7 @@ struct Records<Pack<W>> {
                                                          [&](int lane) { return quad(first(lane) + 2); });
         return {{low.x, low.y, low.z, low.w, high.z, high.w}};
     }
-    /// Those of neighbouring lanes, one behind the other.
+    /// The same for neighbouring lanes, consecutively.
     static PLIANT_INLINE void store_sixes_in_a_row(float* records, const SixNumbers<T>& a, int count)
     {
         if constexpr (W == 16)

@@ -1,22 +1,22 @@
 // Steps of a sheet by springs: included by kernels.inl.
 //
-// A row is done in chunks of columns, each in two sweeps. The first computes the springs of every node that
-// lead on, to the right and to the next two rows, three at a time; the second sums them up at both ends. That
-// is the gather of `spring_force` over twelve neighbours with each spring computed once: the forces on its
-// ends are negatives of each other bit for bit, and every node still adds its neighbours in the order of
+// Each row is processed in chunks of columns, each chunk in two sweeps. The first computes the forward
+// springs of every node, to the right and to the next two rows, three at a time. The second sums them at both
+// ends. This equals the gather of `spring_force` over twelve neighbours, but computes each spring once: the
+// forces on its ends are exact negatives, and every node still adds its neighbours in the order of
 // `sheet_neighbours`.
 //
-// Several steps are taken in one pass over the rows: step k works three rows behind step k - 1, on rows that
-// are in the cache still (Wonnacott, "Using time skewing to eliminate idle time due to memory bandwidth",
-// 2000). It writes over the state before the last, of which nobody needs that row any more.
+// Several steps run in one pass over the rows: step k is three rows behind step k - 1, on rows that are still
+// in the cache (Wonnacott, "Using time skewing to eliminate idle time due to memory bandwidth", 2000). It
+// overwrites the state before the last, whose row is no longer needed.
 
 constexpr int forward_springs = 6;
-constexpr int springs_at_once = 3;  // of 1, 2, 3 and 6 the fastest
+constexpr int springs_at_once = 3;  // the fastest of 1, 2, 3 and 6
 using Springs = Group<Number, springs_at_once>;
 using LawsOfSprings = Laws<Springs>;
 constexpr const SheetNeighbour* forward_neighbours = sheet_neighbours + forward_springs;
 
-/// Forces on nodes by their forward springs, N: of a chunk of columns, and of the pack before it.
+/// Forces on nodes by their forward springs, N, for a chunk of columns and the pack before it.
 struct ChunkForces {
     static constexpr std::ptrdiff_t columns = 128, before = 16;
     float numbers[forward_springs][3][before + columns];
@@ -37,7 +37,7 @@ struct ChunkForces {
 };
 inline Vector nothing() { return {Number(0.0f), Number(0.0f), Number(0.0f)}; }
 
-/// Forces of three forward springs of a pack, from the n-th on.
+/// Forces of three forward springs of a pack, beginning with the n-th.
 template <bool interior, int n>
 PLIANT_INLINE void spring_forces_from(const SheetArguments& a, const Block& block, std::ptrdiff_t in_chunk,
                                       ChunkForces& forces)
@@ -85,7 +85,7 @@ PLIANT_INLINE void spring_forces_from(const SheetArguments& a, const Block& bloc
     });
 }
 
-/// Second sweep: the sum of the forces on a pack, and the step.
+/// Second sweep: sums the forces on a pack and steps it.
 PLIANT_INLINE void move_nodes(const SheetArguments& a, const Vectors& carried, const Block& block,
                               std::ptrdiff_t in_chunk, const ChunkForces& forces)
 {
@@ -99,7 +99,7 @@ PLIANT_INLINE void move_nodes(const SheetArguments& a, const Vectors& carried, c
     store(a.next_velocity, block.offset, next.velocity);
 }
 
-/// What a row's springs leave for the next, a column behind, so that all of them are known.
+/// Passes the forces of a row's springs on to the next row, one column late, when all of them are known.
 PLIANT_INLINE void carry_on(const Vectors& below, std::ptrdiff_t column, std::ptrdiff_t in_chunk,
                             const ChunkForces& forces)
 {
@@ -108,7 +108,8 @@ PLIANT_INLINE void carry_on(const Vectors& below, std::ptrdiff_t column, std::pt
               forces.at(2, in_chunk));
 }
 
-/// One row of a step; `moves`: else the row is of another part, and only what its springs leave is wanted.
+/// One row of a step. Without `moves` the row is another part's, and only its springs' forces on later rows
+/// are needed.
 template <bool moves>
 PLIANT_IN_ONE_PIECE void step_row(const SheetArguments& a, const Vectors& here, const Vectors& below,
                                   std::ptrdiff_t row)
@@ -140,7 +141,7 @@ PLIANT_IN_ONE_PIECE void step_row(const SheetArguments& a, const Vectors& here, 
             if (moves) move_nodes(a, here, block_at(first + k), k, forces);
             carry_on(below, first + k, k, forces);
             store(here, first + k,
-                  nothing() - forces.at(5, k));  // of the row after the next, in this one's place
+                  nothing() - forces.at(5, k));  // of the row after the next, stored in this one's place
         }
         for (int n = 0; n < forward_springs; ++n) forces.set(n, -width, forces.at(n, end - width));
     }
@@ -151,7 +152,7 @@ PLIANT_IN_ONE_PIECE void step_row(const SheetArguments& a, const Vectors& here, 
 void sheet_steps(const SheetStretch& s)
 {
     constexpr std::ptrdiff_t reach = 2;        // rows that a spring spans
-    constexpr std::ptrdiff_t lag = reach + 1;  // of a step behind the one before
+    constexpr std::ptrdiff_t lag = reach + 1;  // rows by which a step is behind the one before
     const auto stride = static_cast<std::ptrdiff_t>(s.steps->layout->stride);
     const std::size_t size = SheetStretch::carried_size(s.steps->layout->stride);
     const auto carried = [&](std::size_t step, std::ptrdiff_t row) {
@@ -163,7 +164,7 @@ void sheet_steps(const SheetStretch& s)
         const std::ptrdiff_t shift = lag * static_cast<std::ptrdiff_t>(k);
         if (s.rows[k].begin - reach + shift < first) first = s.rows[k].begin - reach + shift;
         if (s.rows[k].end + shift > end) end = s.rows[k].end + shift;
-        // All of it, whatever the width: what a call before left here would be added to this one's nodes.
+        // Clears all of it, whatever the width: remains of an earlier call would be added to these nodes.
         for (std::size_t i = 0; i < size; ++i) s.carried[size * k + i] = 0;
     }
     for (std::ptrdiff_t front = first; front < end; ++front)

@@ -8,15 +8,15 @@
 namespace pliant::cpu {
 namespace {
 
-/// What the gaps of the second phase may cost, as a share of all rows: they occupy one thread less.
-constexpr std::size_t largest_gap_share = 32;  // 1 in so many
+/// The maximum cost of the second phase's gaps, as a share of all rows: they occupy one thread less.
+constexpr std::size_t largest_gap_share = 32;  // 1 / largest_gap_share
 constexpr std::ptrdiff_t reach = 2;            // rows that a spring spans
 
 }  // namespace
 
 SheetSteps::SheetSteps(const NodeLayout& layout, std::size_t most_parts) : rows_(layout.rows)
 {
-    // A row of the last step may be written a pack beyond its end.
+    // A row of the last step may be written one pack beyond its end.
     const std::size_t size =
         SheetStretch::carried_size(layout.stride) * SheetStretch::most_steps + 2 * NodeLayout::pad;
     for (std::size_t k = 0; k < most_parts; ++k) carried_.emplace_back(size);

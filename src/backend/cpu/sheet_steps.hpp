@@ -1,5 +1,4 @@
-// Steps of a sheet that are taken in one pass over its rows, so that its state comes from memory once for all
-// of them.
+// Several steps of a sheet in one pass over its rows, so that its state is read from memory only once.
 #pragma once
 
 #include <array>
@@ -11,9 +10,9 @@
 
 namespace pliant::cpu {
 
-/// Threads share the rows in two phases. Step k needs two rows more than it makes, so in the first phase a
-/// part's rows shrink from step to step by two at every side that it shares, and no part waits for another;
-/// the second phase fills the gaps, which grow by as much ("split tiling"; Grosser et al., "Split tiling for
+/// Threads share the rows in two phases. Step k needs two rows more than it computes. In the first phase a
+/// part's rows therefore shrink from step to step by two at every shared side, and no part waits for another.
+/// The second phase fills the gaps, which grow by as much ("split tiling"; Grosser et al., "Split tiling for
 /// GPUs", 2013).
 class SheetSteps {
 public:
@@ -22,7 +21,7 @@ public:
     /// For up to `most_parts` parts of a sheet.
     SheetSteps(const NodeLayout& layout, std::size_t most_parts);
 
-    /// How many steps are worth taking at once by so many parts.
+    /// How many steps to take at once with `parts` parts.
     static std::size_t most_steps(std::size_t rows, std::size_t parts);
 
     void begin();
@@ -30,7 +29,7 @@ public:
              std::span<const Collider> colliders);
     std::size_t count() const { return count_; }
 
-    /// Phase 0 has `parts` parts, phase 1 one less. Parts of a phase may run at once.
+    /// Phase 0 has `parts` parts, phase 1 one less. Parts of a phase may run concurrently.
     void part(const Kernels& kernels, unsigned phase, std::size_t index, std::size_t parts);
 
 private:

@@ -1,4 +1,4 @@
-// How slices of 16 lanes are filled, see Slices in kernels.hpp.
+// Fills slices of 16 lanes, see Slices in kernels.hpp.
 #pragma once
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 
 namespace pliant::cpu {
 
-/// Appends a slice: add(lane, k, exists) for its entries in the order in which they lie, as many rows as the
-/// longest lane has entries; count(lane) says how many. `start` begins as {0}.
+/// Appends a slice: calls add(lane, k, exists) for its entries in memory order, with as many rows as the
+/// longest lane has entries. count(lane) returns the number of entries. `start` begins as {0}.
 template <class Count, class Add>
 void append_slice(std::vector<std::uint32_t>& start, Count count, Add add)
 {

@@ -1,4 +1,4 @@
-// Springs as a list, and the step from their forces, as the kernels of the CPU want them.
+// A list of springs, and the step from their forces, in the data layout of the CPU kernels.
 #pragma once
 
 #include <vector>
@@ -11,17 +11,17 @@ namespace pliant::cpu {
 
 class SpringList {
 public:
-    /// Nothing for a cloth that takes its springs from its nodes. Makes room in `cloth.spring_force`.
+    /// Empty for node-centric cloths. Allocates `cloth.spring_force`.
     explicit SpringList(PlainCloth<float>& cloth);
 
-    static constexpr std::size_t pack = 32;  ///< springs come in two of the widest packs
+    static constexpr std::size_t pack = 32;  ///< springs are padded to two of the widest packs
     std::size_t spring_count() const { return first_.size(); }
     std::size_t slice_count() const { return runs_.size(); }
 
-    /// Springs from `begin` to before `end`, multiples of `pack`; parts may run at once.
+    /// Springs [begin, end), multiples of `pack`; parts may run concurrently.
     void find_forces(const Call& call, PlainCloth<float>& cloth, const StateRecords& records,
                      const Kernels& kernels, std::size_t begin, std::size_t end) const;
-    /// Slices; parts may run at once.
+    /// Steps slices; parts may run concurrently.
     void step(const Call& call, PlainCloth<float>& cloth, StateRecords& records, const Kernels& kernels,
               const StepConstants<float>& constants, std::span<const Laws<float>::Collider> colliders,
               std::size_t begin, std::size_t end) const;

@@ -1,4 +1,4 @@
-// Vectors of nodes side by side, for the kernels that gather neighbours from anywhere.
+// Vectors of nodes as records, for kernels that gather arbitrary neighbours.
 #pragma once
 
 #include "backend/cpu/kernels.hpp"
@@ -7,12 +7,12 @@
 
 namespace pliant::cpu {
 
-/// Records of both copies of the state; and, of bodies that keep their volume, of where a step ends and along
-/// what it is corrected. The planes are what counts: records are made from them where a pass needs them,
-/// unless the pass that wrote the planes left them, too.
+/// Records of both copies of the state; for bodies with the volume constraint also of the end of a step and
+/// the direction of its correction. The planes are authoritative: records are made from them when a pass
+/// needs them, unless the pass that wrote the planes wrote the records, too.
 class StateRecords {
 public:
-    static constexpr std::uint32_t ends = 2;  ///< beside the parities
+    static constexpr std::uint32_t ends = 2;  ///< index besides the parities
 
     explicit StateRecords(const PlainCloth<float>& cloth)
     {
@@ -26,9 +26,9 @@ public:
     const float* at(std::uint32_t copy) const { return records_[copy].data(); }
     float* at(std::uint32_t copy) { return records_[copy].data(); }
 
-    /// Whether a call finds its neighbours here, and records must be made of them first.
+    /// Whether a call reads records that must be made first.
     bool are_missing(const Call& call) const { return gathers(call.pass) && !agree_[copy_for(call)]; }
-    /// What to make them of, and where.
+    /// The planes to read and the records to make.
     RecordArguments missing(const Call& call, const PlainCloth<float>& cloth)
     {
         const std::uint32_t copy = copy_for(call);
@@ -37,9 +37,9 @@ public:
             return {pointers(cloth.position[1 - call.parity]), pointers(cloth.body.direction), at(copy)};
         return {pointers(cloth.position[copy]), pointers(cloth.velocity[copy]), at(copy)};
     }
-    /// Everything has been written anew.
+    /// Marks all records as outdated.
     void forget() { agree_[0] = agree_[1] = agree_[ends] = false; }
-    /// After a call: what it has written into the planes it may have left here, too.
+    /// After a call: notes which records are up to date.
     void follow(const Call& call)
     {
         if (records_[0].empty()) return;

@@ -10,14 +10,14 @@
 namespace pliant::cpu {
 namespace {
 
-/// Waits a little, after a while lets others have the core, and at last sleeps where that is allowed.
+/// Spins for a while, then yields the core, and at last sleeps if allowed.
 class Patience {
 public:
     explicit Patience(bool may_sleep) : may_sleep_(may_sleep) {}
 
     void wait()
     {
-        constexpr int spins = 2000, yields = 200;  // some 50 us each on a machine that is not busy
+        constexpr int spins = 2000, yields = 200;  // about 50 us each on an idle machine
         ++waited_;
         if (waited_ > spins + yields && may_sleep_)
             return std::this_thread::sleep_for(std::chrono::microseconds(50));
@@ -70,7 +70,7 @@ void Team::come(const std::function<void()>& lead)
 bool Team::claim(std::uint32_t region, unsigned index)
 {
     std::uint32_t last = claimed_[index].load(std::memory_order_relaxed);
-    // Who comes too late finds the part taken: a region does not end before all of its parts are.
+    // A late helper finds the part taken: a region does not end before all its parts are done.
     return static_cast<std::int32_t>(region - last) > 0 &&
            claimed_[index].compare_exchange_strong(last, region, std::memory_order_acq_rel);
 }
@@ -85,7 +85,7 @@ void Team::run(unsigned count, void (*task)(void*, unsigned), void* context)
     open_.store(std::uint64_t{region_} << 32 | count, std::memory_order_release);
     task(context, 0);
     unsigned own = 1;
-    for (unsigned index = 1; index < count; ++index)  // what nobody has begun
+    for (unsigned index = 1; index < count; ++index)  // parts that no helper has begun
         if (claim(region_, index)) {
             task(context, index);
             ++own;
@@ -94,13 +94,13 @@ void Team::run(unsigned count, void (*task)(void*, unsigned), void* context)
     while (finished_.load(std::memory_order_acquire) + own < count) patience.wait();
 }
 
-/// A helper takes the part of its number, so that it finds in its caches what it left there.
+/// A helper takes the part of its own number: that data is likely in its caches.
 void Team::help(unsigned number)
 {
-    // The region that is open may be the first of this frame, and all there is to do; parts of the last
-    // frame's are taken.
+    // The open region may be the first of this frame, and the only one; parts of the last frame's region are
+    // taken.
     std::uint64_t seen = 0;
-    Patience patience(true);  // the leader does what a sleeper leaves
+    Patience patience(true);  // the leader runs the parts of sleeping helpers
     while (!ended_.load(std::memory_order_acquire)) {
         const std::uint64_t open = open_.load(std::memory_order_acquire);
         const auto region = static_cast<std::uint32_t>(open >> 32);

@@ -1,7 +1,6 @@
-// Threads that stay together for a frame. A frame of the constraint solver is a thousand regions of a few
-// microseconds; handing each of them to a pool costs as much as the work (docs/performance.md). So the pool
-// hands over once: the first thread that comes leads, the others wait at hand, and a region is one store and
-// one load.
+// Threads that stay together for a frame. A frame of the constraint solver has a thousand regions of a few
+// microseconds; handing each to a pool costs as much as the work (docs/performance.md). So the pool is asked
+// once: the first thread that arrives leads, the others spin, and a region is one store and one load.
 #pragma once
 
 #include <array>
@@ -16,27 +15,28 @@ namespace pliant::cpu {
 
 class Team {
 public:
-    /// Parts that one region can have.
+    /// The maximum number of parts of a region.
     static constexpr unsigned most_parts = 64;
 
-    /// Calls `lead` on one thread of `jobs`, and lets `threads` - 1 others help with the regions that it
-    /// runs. However few of them come, and however late, all is done: nobody is waited for who has not begun.
+    /// Calls `lead` on one thread of `jobs`, while up to `threads` - 1 others help with its regions. All work
+    /// gets done even if fewer threads arrive, or late: the leader never waits for a thread that has not
+    /// begun.
     void gather(JobSystem& jobs, unsigned threads, const std::function<void()>& lead);
 
-    /// A region: task(context, 0) ... task(context, count - 1), by whoever is there. Within `gather` alone,
-    /// and by the leader; `count` is at most most_parts.
+    /// A region: task(context, 0) ... task(context, count - 1), on the threads present. Call it only inside
+    /// `gather`, from the leader; `count` is at most most_parts.
     void run(unsigned count, void (*task)(void* context, unsigned index), void* context);
 
 private:
     void come(const std::function<void()>& lead);
     void help(unsigned number);
-    /// Takes part `index` of region `region` unless somebody has.
+    /// Takes part `index` of region `region` unless another thread has it.
     bool claim(std::uint32_t region, unsigned index);
 
     std::atomic<std::uint64_t> open_{0};  ///< number of the region, 32 bits, and its count of parts
     std::array<std::atomic<std::uint32_t>, most_parts>
-        claimed_{};                      ///< the last region in which each was taken
-    std::atomic<unsigned> finished_{0};  ///< parts that helpers have done
+        claimed_{};                      ///< by part: the last region in which it was taken
+    std::atomic<unsigned> finished_{0};  ///< parts that helpers have completed
     std::uint32_t region_ = 0;
     void (*task_)(void*, unsigned) = nullptr;
     void* context_ = nullptr;

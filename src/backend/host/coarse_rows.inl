@@ -1,15 +1,16 @@
-// sheet_coarsen row by row: what lies half way, rows of the finer level with columns of this one, is made
-// once for the three rows of this level that use it. Part of SolverKernels (solver_kernels.hpp), for packs.
+// sheet_coarsen row by row. The intermediate operator (rows of the finer level, columns of this one) is
+// computed once for the three rows of this level that use it. Part of SolverKernels (solver_kernels.hpp), for
+// packs.
 
-/// Columns of this level at a time, and a pack and more on both sides of them.
+/// Columns of this level per batch, and more than a pack on both sides.
 struct CoarseSpan {
-    // The pitch is an odd number of cache lines: rows of numbers then begin at different places of a cache.
+    // The pitch is an odd number of cache lines, so that rows begin in different sets of a cache.
     static constexpr int most = 128, pad = 32, pitch = most + 2 * pad + 16;
     int first, columns;
-    int left, right;  ///< columns of which what lies half way is made
+    int left, right;  ///< columns of the intermediate operator to compute
 };
 
-/// A row of the finer level, even and odd columns apart.
+/// A row of the finer level, with even and odd columns separate.
 struct SplitRow {
     static constexpr int kinds = 5;  ///< row sums, and couplings to the four forward neighbours
     Number numbers[2 * kinds * 6 * CoarseSpan::pitch];
@@ -19,7 +20,7 @@ struct SplitRow {
         return numbers + ((odd * kinds + kind) * 6 * CoarseSpan::pitch + CoarseSpan::pad + column);
     }
 };
-/// A row half way.
+/// A row of the intermediate operator.
 struct HalfRow {
     static constexpr int kinds = 6;  ///< row sums, diagonals, couplings
     Number numbers[kinds * 6 * CoarseSpan::pitch];
@@ -36,7 +37,7 @@ static void buffer6(Number* p, Symmetric a)
     put3(p + 3 * CoarseSpan::pitch, CoarseSpan::pitch, a.yy, a.yz, a.zz);
 }
 
-/// Columns beyond the border are empty.
+/// Columns beyond the border are zero.
 KERNEL void split_row(SplitRow& to, int row, const CoarseSpan& span)
 {
     constexpr int lanes = Lanes<T>::count;
@@ -61,7 +62,7 @@ KERNEL void split_row(SplitRow& to, int row, const CoarseSpan& span)
     }
 }
 
-/// As half_coarse_at, of a whole row; `above` is the row of the finer level before it.
+/// As half_coarse_at, for a whole row; `above` is the row of the finer level before it.
 KERNEL void make_half_row(HalfRow& to, SplitRow& above, SplitRow& row, const CoarseSpan& span)
 {
     const auto even = [&](int kind, int column) { return buffered6(row.at(0, kind, column)); };
@@ -111,7 +112,7 @@ void coarsen_rows(int begin, int end)
             self.split_row(split[(row + 2) % 2], row, span);
             self.make_half_row(half_row(row), split[(row + 1) % 2], split[(row + 2) % 2], span);
         };
-        self.split_row(split[0], 2 * begin - 2, span);  // an even row, as `make` has it
+        self.split_row(split[0], 2 * begin - 2, span);  // an even row, as `make` requires
         make(2 * begin - 1);
         for (int row = begin; row < end; ++row) {
             make(2 * row);

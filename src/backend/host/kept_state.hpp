@@ -1,4 +1,4 @@
-// What the backends on the host keep aside of a cloth before a program, see Kept.
+// Copies of a cloth's numbers that host backends save before a program, see Kept.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Numbers of neighbouring nodes that a kernel works on at once: one of them here, W in backend/cpu/pack.hpp.
+// Numbers of neighbouring nodes that a kernel processes at once: one here, W in backend/cpu/pack.hpp.
 #pragma once
 
 #include "laws/laws.hpp"
@@ -23,8 +23,7 @@ struct Lanes {
     static T sum(T a) { return a; }
 };
 
-/// Numbers that lie record by record: for a pack those of backend/cpu/records.hpp, which nothing else asks
-/// for.
+/// Access to records. For packs it is in backend/cpu/records.hpp; single numbers do not use it.
 template <class T>
 struct Records;
 template <class T>
@@ -36,7 +35,7 @@ struct SixNumbers {
     T numbers[6];
 };
 
-/// One vector, and one collider, for all lanes of T.
+/// Broadcasts one vector, and one collider, to all lanes of T.
 template <class T, class Vector>
 auto spread_vector(const Vector& a)
 {

@@ -1,13 +1,12 @@
-// Passes of meshes by packs: neighbouring nodes, or edges, side by side, by the tables of MeshLanes. Every
-// node adds up what it does in kernels/mesh.kernel.glsl, in the same order. Part of SolverKernels
-// (solver_kernels.hpp).
+// Passes of meshes in packs: neighbouring nodes or edges side by side, by the tables of MeshLanes. Every node
+// sums as in kernels/mesh.kernel.glsl, in the same order. Part of SolverKernels (solver_kernels.hpp).
 
 using Record = Records<T>;
 
 const MeshLanes& lanes_of(unsigned number) const { return context.lanes[number]; }
 const MeshLanes& lanes() const { return lanes_of(level_number_); }
 
-/// The entries of lane `first` and those behind it, row after row.
+/// The entries of lane `first` and the following lanes, row by row.
 struct Entries {
     struct Place {
         int entry;
@@ -28,7 +27,7 @@ KERNEL static Entries entries_of(const LaneTable& table, int first)
     const int begin = table.start[first / slice_lanes] * slice_lanes + first % slice_lanes;
     return {begin, begin + rows * slice_lanes};
 }
-/// How many of the lanes are left before `end`.
+/// The number of lanes before `end`.
 static int lanes_left(int first, int end)
 {
     return end - first < Lanes<T>::count ? end - first : Lanes<T>::count;
@@ -44,7 +43,7 @@ KERNEL Symmetric blocks_at(const SolverLevel& of, const std::int32_t* twice) con
 {
     return symmetric_of(Record::template sixes<3>(context.arena + of.edge_base, twice));
 }
-/// Of neighbouring blocks from `first` on.
+/// Stores consecutive blocks from `first` on.
 KERNEL void store_blocks_in_a_row(Symmetric a, int count, int first) const
 {
     Record::store_sixes_in_a_row(context.arena + (level.edge_base + 6 * first),
@@ -56,14 +55,14 @@ KERNEL void store_blocks(Symmetric a, int count, const Place& place) const
     Record::store_sixes(context.arena + level.edge_base, {{a.xx, a.xy, a.xz, a.yy, a.yz, a.zz}}, count,
                         place);
 }
-/// The row sums of nodes: where coarser levels find them, and where the product does.
+/// Stores the row sums of nodes twice: for coarser levels, and for the product.
 KERNEL void store_row_sums(int o, Symmetric a)
 {
     const int first = mesh_node(o);
     store_blocks_in_a_row(a, lanes_left(first, level.columns), level.edges + first);
     store6(plane_row_sum, o, a);
 }
-/// The couplings of nodes with their neighbours lie row by row: a stream for the product.
+/// Couplings of nodes with their neighbours, stored row by row for the product to stream.
 KERNEL Number* couplings_at(int entry) const
 {
     const int lane = entry % LaneTable::lanes;
@@ -72,7 +71,7 @@ KERNEL Number* couplings_at(int entry) const
 
 // --- records ---------------------------------------------------------------------------------------------
 
-/// What neighbours are asked for in a pass, of groups of nodes: of this level, or of the finer one.
+/// Makes the records that a pass reads from neighbours, for groups of nodes of this level or the finer one.
 void make_records(Pass pass, int begin, int end)
 {
     SolverKernels self = *this;
@@ -102,8 +101,8 @@ void make_records(Pass pass, int begin, int end)
 
 // --- springs ---------------------------------------------------------------------------------------------
 
-/// A group of springs on their way to their forces: x_j - x_i when the step began and now, and lengths. Found
-/// by sweeps of short chains, of which a core holds many at a time.
+/// A group of springs before their forces: x_j - x_i at the start of the step and now, and lengths. Computed
+/// in sweeps of short chains, which a core overlaps.
 struct SpringGroup {
     Number start[3 * sum_columns], d[3 * sum_columns], length2[sum_columns], inverse_length[sum_columns];
 };
@@ -122,7 +121,8 @@ KERNEL void find_lengths(SpringGroup& group, int first, int last) const
         Lanes<T>::store(group.inverse_length + k, inverse_sqrt(Lanes<T>::load(group.length2 + k)));
 }
 
-/// damped_between and damper_between for the nodes of each spring. Found lane by lane, as few ask for it.
+/// damped_between and damper_between for the nodes of each spring. Computed lane by lane, since few cloths
+/// need it.
 KERNEL void damp_lanes(int e, vec3 start, LimitCurve& curve, vec3& damper) const
 {
     Number ahead[3 * Lanes<T>::count], known[Lanes<T>::count];
@@ -137,14 +137,14 @@ KERNEL void damp_lanes(int e, vec3 start, LimitCurve& curve, vec3& damper) const
     curve.damping =
         choose(Lanes<T>::load(known) > 0.0f, curve.damping, curve.damping - curve.damping * third());
 }
-/// knows_before, of one node.
+/// knows_before, for one node.
 bool knows_step(int o) const
 {
     const Number h = constants.dt, off = *at(history_plane() + history_step, o) - h;
     return h * Number(1e-3f) > (off < Number(0) ? -off : off);
 }
 
-/// Where classes are mixed in a group, the state by each is computed for all lanes.
+/// If a group has several classes, computes the state of each class for all lanes and selects.
 KERNEL SpringShare spring_of_lanes(const SpringGroup& group, int first, int e)
 {
     const int k = e - first;
@@ -186,11 +186,11 @@ KERNEL static SpringState chosen(mask m, SpringState a, SpringState b)
     return {choose(m, a.force, b.force), choose(m, a.along, b.along), choose(m, a.across, b.across),
             choose(m, a.energy, b.energy), choose(m, a.multiplier, b.multiplier)};
 }
-/// Where loose springs are folded, the springs before them are computed in mesh_fold, which then has their
-/// blocks at hand. A group of both is in mesh_springs; so is all that is asked of them where nothing is
+/// If loose springs are folded, the springs before them are computed in mesh_fold, which then has their
+/// blocks in registers. Groups with both kinds are computed in mesh_springs, and all groups if nothing is
 /// folded.
 int folding_groups() const { return level.folds() ? level.loose / sum_columns : 0; }
-/// Groups [first, end) for the part [begin, finish) of those that the pass is divided into.
+/// Groups [first, end) for the part [begin, finish) of a pass.
 template <class Function>
 void for_part(int first, int end, int begin, int finish, const Function& function) const
 {
@@ -227,7 +227,7 @@ void mesh_fold_groups(Pass, int begin, int end)
     });
 }
 
-/// A spring's block with those that are folded onto it.
+/// A spring's block plus those folded onto it.
 KERNEL Symmetric with_folds(Symmetric own, int e)
 {
     const Symmetric first = plus_scaled(symmetric_diagonal(real(0.0f)), own, real(1.0f));
@@ -238,7 +238,7 @@ KERNEL void folded_springs_lanes(const SpringGroup& group, int first, int e)
     const SpringShare spring = spring_of_lanes(group, first, e);
     leave_spring(e, spring, with_folds(spring.block, e));
 }
-/// Of a group whose springs mesh_springs has left.
+/// For a group whose springs mesh_springs has computed.
 KERNEL void fold_lanes(int e)
 {
     std::int32_t own[Lanes<T>::count];
@@ -247,7 +247,7 @@ KERNEL void fold_lanes(int e)
     store_blocks_in_a_row(with_folds(blocks_at(level, own), e), lanes_left(e, level.loose), e);
 }
 
-/// The force of springs, by twice their numbers, and whether they are taut.
+/// The forces of springs, by twice their numbers, and whether they are taut.
 KERNEL FourNumbers<T> force_at(const std::int32_t* twice) const
 {
     return Record::template fours<2>(edge_at(edge_force, 4, 0), twice);
@@ -311,7 +311,7 @@ KERNEL void mesh_multiply_lanes(int e)
 
 // --- products --------------------------------------------------------------------------------------------
 
-/// mesh_row_product; x lies in records, too.
+/// mesh_row_product; x is also in records.
 KERNEL vec3 lanes_product(int x, int o)
 {
     const vec3 own = load3(x, o);
@@ -327,7 +327,7 @@ KERNEL void mesh_apply_lanes(int o) { leave_applied(o, lanes_product(plane_direc
 KERNEL void mesh_smooth_lanes(int o) { leave_smoothed(o, lanes_product(source_plane(), o)); }
 KERNEL void mesh_residual_lanes(int o) { leave_residual(o, lanes_product(source_plane(), o)); }
 
-// --- from level to level ---------------------------------------------------------------------------------
+// --- between levels --------------------------------------------------------------------------------------
 
 KERNEL Symmetric sum_of_blocks(const SolverLevel& of, const LaneTable& table, int first)
 {

@@ -10,7 +10,7 @@ namespace {
 
 static_assert(BodyBlock::most == block_size, "a block is what one work group sums up");
 
-/// Sum of the forces of a node's springs, and its gradient, in the order of the ring.
+/// The force of a node's springs, and its volume gradient, summed in the order of the ring.
 template <class T>
 struct RingSums {
     Vector3<T> force{T(0), T(0), T(0)}, gradient{T(0), T(0), T(0)};
@@ -45,8 +45,8 @@ struct RingSums {
     }
 };
 
-/// The fixed tree: 16 lanes, each of every 16th value in their order; then the lanes in theirs. To merge
-/// nothing changes no bit, so that `count` of the 256 values may be all.
+/// The fixed tree: 16 lanes, each the sum of every 16th value in order; then the lanes in order. Merging an
+/// empty value changes no bit, so `count` may be less than 256.
 template <class Value, class Merge>
 Value merged_values(const Value* values, std::size_t count, Merge merge)
 {
@@ -61,7 +61,7 @@ Value merged_values(const Value* values, std::size_t count, Merge merge)
     return total;
 }
 
-/// Of the blocks of a body: value k of 256 is the sum of the k-th, the (k + 256)-th, ...
+/// Merges the blocks of a body: value k of 256 is the sum of the k-th, the (k + 256)-th, ...
 template <class Value, class Nothing, class Merge>
 Value merged_blocks(const std::vector<Value>& all, std::size_t first, std::size_t count, Nothing nothing,
                     Merge merge)
@@ -217,7 +217,7 @@ void PlainBody<T>::load_force(const Call& call, PlainCloth<T>& cloth, std::size_
         const Vector force =
             L::region_force(vector(load.force), vector(load.torque), cloth.position[call.parity].get(offset));
         const bool wind =
-            cloth.model.feels_air();  // written anew in each step, while a load's own place is only ours
+            cloth.model.feels_air();  // if so, the wind pass has overwritten it; else it holds only this load
         cloth.external_force.set(offset, wind ? cloth.external_force.get(offset) + force : force);
     }
 }
@@ -300,7 +300,7 @@ void PlainBody<T>::step(const Call& call, PlainCloth<T>& cloth, const StepConsta
     }
 }
 
-/// For the cubic of the step's end, or (volume_measure) the volume of the state as it is.
+/// The cubic at the end of the step, or, for volume_measure, the volume of the current state.
 template <class T>
 void PlainBody<T>::sum_fans(const Call& call, const PlainCloth<T>& cloth, std::size_t begin, std::size_t end)
 {
@@ -327,7 +327,7 @@ void PlainBody<T>::sum_fans(const Call& call, const PlainCloth<T>& cloth, std::s
             }
             values[k] = L::fan_cubic(sums, a - records[block.body].centre, da);
             if (measures)
-                values[k].first = values[k].second = values[k].third = T(0);  // without the sign of zeros
+                values[k].first = values[k].second = values[k].third = T(0);  // avoids negative zeros
         }
         cubics[b] = merged(values);
     }

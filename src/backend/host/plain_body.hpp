@@ -17,7 +17,7 @@ class PlainCloth;
 template <class T>
 struct StepConstants;
 
-/// What a soft body's passes keep beside the state of its nodes.
+/// Data of a soft body's passes besides the state of its nodes.
 template <class T>
 class PlainBody {
 public:
@@ -27,7 +27,7 @@ public:
     using Rate = typename L::VolumeRate;
     using Cubic = typename L::VolumeCubic;
 
-    /// What is carried from step to step.
+    /// Carried from step to step.
     struct Record {
         Vector centre{T(0), T(0), T(0)};  ///< m
         T volume{};                       ///< 6 V, m3
@@ -44,18 +44,18 @@ public:
     {
         return {blocked.get(offset), blocked_count[offset]};
     }
-    /// Sums of the blocks of one body.
+    /// The merged sums of one body.
     Rate rate_of(const BodyPart& part) const;
     Cubic cubic_of(const BodyPart& part) const;
-    /// What is wanted of a body at the end of a step.
+    /// The target of a body at the end of a step.
     VolumeGoal goal_of(const Call& call, const StepConstants<T>& constants, std::size_t part) const;
 
     /// The mean gradient, and the multiplier of eq. (14) as a change of velocity.
     std::pair<Vector, T> multiplier_of(const BodyPart& part, std::size_t index, const VolumeGoal& goal,
                                        const StepConstants<T>& constants) const;
-    /// How far the exact correction goes; keeps in the record of the body where that leads.
+    /// The length of the exact correction; writes the result into the body's record.
     T correction_of(const BodyPart& part, std::size_t index, const VolumeGoal& goal);
-    /// The same without a word in the record: what all blocks but the first do.
+    /// The same without writing the record: for all blocks but the first.
     T correction_of(const BodyPart& part, const VolumeGoal& goal) const;
 
     const BodyModel* model = nullptr;  ///< null for a cloth
@@ -65,9 +65,9 @@ public:
     std::vector<Rate> rates;
     std::vector<Cubic> cubics;
     std::vector<Record> records;
-    std::vector<T> volumes;  ///< 6 V as measured last
+    std::vector<T> volumes;  ///< 6 V at the last measurement
 
-    /// The values of a block of 256 by the fixed tree, see plain_body.cpp.
+    /// Merges the values of a block of 256 in the fixed tree, see plain_body.cpp.
     static Rate merged(Rate* values);
     static Cubic merged(Cubic* values);
 

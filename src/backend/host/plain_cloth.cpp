@@ -90,7 +90,7 @@ void PlainCloth<T>::run(const Call& call, const StepConstants<T>& constants,
         case Pass::sheet_strain: return sheet_strains(call, constants, begin, end);
         case Pass::list_strain:
             return list_strains(call, begin, end);
-            // Those of bodies are PlainBody's, those of solvers SolverState's. A pass of cloths that has no
+            // PlainBody runs the passes of bodies, SolverState those of solvers. A pass of cloths without a
             // case here is an error of the build.
 #define CLOTH_PASS(name, ...)
 #define PASS(name, ...) \
@@ -113,8 +113,8 @@ void PlainCloth<T>::for_each_node(std::size_t begin, std::size_t end, Function&&
     }
 }
 
-/// The springs of a sheet's node from the first-th on, in canonical order: f(neighbour, offset of the other
-/// node).
+/// Visits the springs of a sheet's node from the first-th on, in canonical order: f(neighbour, offset of the
+/// other node).
 template <class T>
 template <class Function>
 void PlainCloth<T>::for_each_sheet_neighbour(const Place& place, std::size_t first, Function&& f) const
@@ -130,8 +130,8 @@ void PlainCloth<T>::for_each_sheet_neighbour(const Place& place, std::size_t fir
     }
 }
 
-/// The up to six triangles around a sheet's node, in the order of ClothModel::triangles: f(offsets of the
-/// corners).
+/// Visits the up to six triangles around a sheet's node, in the order of ClothModel::triangles: f(offsets of
+/// the corners).
 template <class T>
 template <class Function>
 void PlainCloth<T>::for_each_sheet_triangle(const Place& place, Function&& f) const
@@ -181,7 +181,7 @@ void PlainCloth<T>::sheet_step(const Call& call, const StepConstants<T>& c,
     });
 }
 
-/// Nodes of moving pins, to where they are at the end of the step.
+/// Moves attached nodes to where they are at the end of the step.
 template <class T>
 void PlainCloth<T>::attach(const Call& call, const StepConstants<T>& c, std::size_t begin, std::size_t end)
 {
@@ -195,7 +195,7 @@ void PlainCloth<T>::attach(const Call& call, const StepConstants<T>& c, std::siz
     }
 }
 
-/// The velocity that a hand gives the node it holds, before the step.
+/// The velocity of the hand's node before the step.
 template <class T>
 void PlainCloth<T>::grab(const Call& call, const StepConstants<T>& c)
 {
@@ -383,7 +383,7 @@ void PlainCloth<T>::list_strains(const Call& call, std::size_t begin, std::size_
     });
 }
 
-/// A node's springs to nodes of higher index, so that each is counted once.
+/// A node's springs to nodes of higher index: each spring is counted once.
 template <class T>
 typename PlainCloth<T>::Measure PlainCloth<T>::measured_springs(const Call& call, const StepConstants<T>& c,
                                                                 const Place& place) const
@@ -451,7 +451,7 @@ void PlainCloth<T>::merge_blocks(const Call& call, std::size_t begin, std::size_
     }
 }
 
-/// The fixed tree: halves are added to each other until one value is left.
+/// The fixed tree: adds halves until one value is left.
 template <class T>
 typename PlainCloth<T>::Measure PlainCloth<T>::merged(Measure* values)
 {

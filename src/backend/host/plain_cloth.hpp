@@ -1,5 +1,5 @@
-// One cloth on the host and every pass over it, one node at a time: PlainCloth<double> is the reference
-// backend, PlainCloth<float> the state of the CPU backend, which replaces the hot passes by its SIMD kernels.
+// One cloth on the host, with a plain loop for every pass. PlainCloth<double> is the reference backend;
+// PlainCloth<float> is the state of the CPU backend, which replaces the hot passes by SIMD kernels.
 #pragma once
 
 #include <cstdint>
@@ -26,13 +26,12 @@ public:
 
     explicit PlainCloth(const ClothModel& model);
 
-    /// How many nodes, springs or blocks a call works on.
+    /// The number of nodes, springs or blocks in a call.
     std::size_t size_of(const Call& call) const;
     /// Runs the part [begin, end) of a call.
     void run(const Call& call, const StepConstants<T>& constants, std::span<const Collider> colliders,
              std::size_t begin, std::size_t end);
-    /// Normals and strains are kept from the first time on that somebody looks at them; not for more than
-    /// one thread.
+    /// Allocates normals or strains when a pass first needs them; single-threaded.
     void make_room_for(Pass pass);
     Vector external_force_at(std::size_t offset) const
     {
@@ -47,14 +46,14 @@ public:
     const ClothModel& model;
     NodeLayout layout;
     Planes<T> position[2], velocity[2];
-    Planes<T> external_force;                          ///< none without any
-    VectorArray<T> spring_force;                       ///< per spring
-    Planes<T> position_slope, velocity_slope;          ///< of the integrators with stages
-    Planes<T> normal;                                  ///< none before make_room_for
-    AlignedArray<T> inverse_mass, strain, multiplier;  ///< multiplier: of the constraint methods
+    Planes<T> external_force;                          ///< empty if there is none
+    VectorArray<T> spring_force;                       ///< by spring
+    Planes<T> position_slope, velocity_slope;          ///< for integrators with stages
+    Planes<T> normal;                                  ///< empty before make_room_for
+    AlignedArray<T> inverse_mass, strain, multiplier;  ///< multiplier: for the constraint methods
     std::vector<Measure> measures;
     MeasureTree tree;
-    PlainBody<T> body;  ///< empty but for a soft body
+    PlainBody<T> body;  ///< empty except for a soft body
 
 private:
     struct Place {

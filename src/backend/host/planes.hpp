@@ -1,4 +1,4 @@
-// How the backends on the host keep nodes in memory: one plane of numbers per coordinate.
+// The memory layout of nodes in host backends: one plane per coordinate.
 #pragma once
 
 #include <atomic>
@@ -11,9 +11,9 @@
 
 namespace pliant {
 
-/// An array aligned to cache lines. Each begins some lines further into a page than the one before: planes
-/// that are read side by side would otherwise meet in the same few places of a cache, which made a step of a
-/// large sheet slower by a fifth.
+/// An array aligned to cache lines. Each array begins some lines further into a page than the one before:
+/// otherwise planes that are read together would collide in a few sets of the cache, which slowed a step of a
+/// large sheet by a fifth.
 template <class T>
 class AlignedArray {
 public:
@@ -42,7 +42,7 @@ private:
     std::size_t shift_ = 0;
 };
 
-/// Three planes: vectors by coordinate.
+/// Three planes: one per coordinate.
 template <class T>
 struct Planes {
     Planes() = default;
@@ -57,8 +57,7 @@ struct Planes {
     AlignedArray<T> x, y, z;
 };
 
-/// Vectors one behind the other, with a fourth number for padding: what is gathered from many places is found
-/// in one line of the cache.
+/// Consecutive vectors with a fourth number as padding, so that a gathered vector is in one cache line.
 template <class T>
 class VectorArray {
 public:

@@ -1,12 +1,12 @@
-// Passes over a sheet row by row, where what belongs to a coupling or a spring is computed once: the row that
-// it leads to finds it in a buffer. Part of SolverKernels (solver_kernels.hpp), for packs; the bits are those
-// of the kernels' text, which computes it at both ends.
+// Passes over a sheet row by row. Each coupling or spring is computed once; the row at its other end reads it
+// from a buffer. Part of SolverKernels (solver_kernels.hpp), for packs. The bits equal those of the kernels'
+// text, which computes it at both ends.
 
-/// Columns at a time, so that the buffers of a few rows stay near; and the first of what lies around them.
+/// A batch of columns, so that the buffers of a few rows stay in cache.
 struct RowSpan {
     static constexpr int most = 256, pad = 16, pitch = most + 2 * pad;
     int first, columns;
-    int left, right;  ///< columns that are computed, for the neighbours in it
+    int left, right;  ///< columns to compute, including those for neighbours
 
     RowSpan(int begin, int level_columns) : first(begin)
     {
@@ -17,9 +17,8 @@ struct RowSpan {
     }
 };
 
-/// A pass that begins with what the operator makes of a vector. The force of a coupling is computed once:
-/// the row that it leads to finds it in the row before, and takes it with the other sign, as
-/// sum_of_forces says.
+/// A pass that begins with a product with the operator. The force of each coupling is computed once: the row
+/// at its other end reads it from the buffer of the row before, with the opposite sign, see sum_of_forces.
 template <auto kernel, auto leave>
 void products(Pass pass, int x, int begin, int end)
 {
@@ -41,7 +40,7 @@ void products(Pass pass, int x, int begin, int end)
     const SumSlots slots = is_cloth_ ? sum_slots_of(pass) : SumSlots{};
     for (int first_column = 0; first_column < level.columns; first_column += RowSpan::most) {
         const RowSpan span(first_column, level.columns);
-        for (int kind = 0; kind < 2 * kinds; ++kind)  // beyond the border there is nothing
+        for (int kind = 0; kind < 2 * kinds; ++kind)  // zero beyond the border
             for (int k = 0; k < RowSpan::pad; ++k)
                 forces[kind * pitch + k] = forces[kind * pitch + RowSpan::pad + span.columns + k] = Number(0);
         make_forces(begin - 1, span);
@@ -85,7 +84,7 @@ void level_residual_rows(Pass pass, int begin, int end)
                                                                              end);
 }
 
-/// The springs of a row, as sheet_forces has them: force, block; and what is counted where they begin.
+/// The springs of a row, as in sheet_forces: force, block, and the quantities counted at their first node.
 struct SpringRows {
     static constexpr int pitch = RowSpan::pitch, numbers = 9, kinds = 6, rows = 3;
     Number shares[rows * kinds * numbers * pitch];
@@ -114,7 +113,7 @@ KERNEL void make_springs(SpringRows& to, int row, const RowSpan& span)
         Lanes<T>::store(taut, Lanes<T>::load(taut) + counted_taut(share));
     }
 }
-/// In the order in which sheet_forces adds up what it counts.
+/// Counts in the order of sheet_forces.
 KERNEL void make_springs(SpringRows& to, int row, const RowSpan& span)
 {
     for (int k = 0; k < SpringRows::pitch; ++k) to.energy[k] = to.taut[k] = Number(0);
@@ -136,7 +135,7 @@ void sheet_gather_rows(Pass pass, int begin, int end)
     SpringRows springs;
     for (int first = 0; first < level.columns; first += RowSpan::most) {
         const RowSpan span(first, level.columns);
-        for (Number& number : springs.shares) number = Number(0);  // the border has none
+        for (Number& number : springs.shares) number = Number(0);  // the border has no springs
         for (int row = begin > 2 ? begin - 2 : 0; row < begin; ++row) self.make_springs(springs, row, span);
         for (int row = begin; row < end; ++row) {
             self.make_springs(springs, row, span);
@@ -183,8 +182,8 @@ KERNEL void gather_row(SpringRows& springs, SumSlots slots, int row, const RowSp
                group + sum_columns < span.columns ? group + sum_columns : span.columns, at_node);
 }
 
-/// sheet_limits where stretch alone counts and nothing is remembered, as in nearly every step of ACAD: a
-/// group of columns in which no spring is beyond leaves empty sums, and is left as soon as that is known.
+/// sheet_limits without memory and compression, as in nearly every step of ACAD: a group of columns in which
+/// no spring exceeds the threshold writes empty sums and ends early.
 void sheet_limits_rows(Pass pass, int begin, int end)
 {
     const bool plain = sheet_has(0) && sheet_has(1) && !acad_has_memory() && !acad_has_compression();

@@ -1,4 +1,4 @@
-// What a pass of the constraint solver is given on the host: where its numbers lie.
+// The data of a pass of the constraint solver on the host: where its numbers are.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace pliant {
 
-/// Where the flags of a pass's rows begin that take part in a solve of ACAD.
+/// Where the flags of a pass's live rows begin in a solve of ACAD.
 inline std::int32_t live_flags(Pass pass, const SolverLevel& level, const SolverLevel& finer)
 {
     const PassUnit unit = unit_of(pass);
@@ -31,7 +31,7 @@ struct SolverContext {
     const SolverLevel* levels = nullptr;
     const std::int32_t* topology = nullptr;
     Number* scalars = nullptr;
-    Number* parts = nullptr;  ///< sums of groups, a row for each slot
+    Number* parts = nullptr;  ///< sums of groups, a row per slot
     int part_stride = 0;
     const int* part_counts = nullptr;  ///< by slot
     int bottom_base = 0;
@@ -41,7 +41,7 @@ struct SolverContext {
     const SolverConstants<Number>* constants = nullptr;
     const typename Laws<Number>::Collider* colliders = nullptr;
     int collider_count = 0;
-    const MeshLanes* lanes = nullptr;  ///< by level; of meshes where packs run them
+    const MeshLanes* lanes = nullptr;  ///< by level; for meshes that run in packs
 };
 
 }  // namespace pliant

@@ -1,7 +1,6 @@
-// The constraint solver's passes on the host: the same text that the shaders compile (src/kernels), once for
-// each type of number. SolverKernels<double> is the reference, SolverKernels<Pack<W>> works on W nodes of a
-// row at a time. Nothing of the standard library is used here, so that a file for one instruction set can
-// include it.
+// The constraint solver's passes on the host: the same text that the shaders compile (src/kernels), once per
+// number type. SolverKernels<double> is the reference; SolverKernels<Pack<W>> processes W nodes of a row at a
+// time. Uses nothing of the standard library, so that files for single instruction sets can include it.
 #pragma once
 
 #include "backend/host/inlining.hpp"
@@ -20,16 +19,16 @@ struct SolverKernels {
     using Number = typename Lanes<T>::Number;
     using Context = SolverContext<Number>;
 #include "laws/laws_of_type.inl"
-    /// Rounded twice: fused, it would give other bits where an instruction set or a device has no such thing.
+    /// Rounded twice: a fused operation would give other bits where a machine lacks it.
     static real multiply_add(real a, real b, real c) { return a * b + c; }
 
-    // --- what the kernels' text calls ---
+    // --- functions that the kernels' text calls ---
 
 #define KERNEL PLIANT_INLINE
 #define UNROLL _Pragma("GCC unroll 9")
 #include "kernels/block.kernel.glsl"
 
-    const Context context;  // by value: what a kernel knows stays in registers, whatever it writes
+    const Context context;  // by value, so that it stays in registers despite writes to memory
     const SolverConstants<Number> constants;
     SolverLevel level, finer;
     T sums[most_sums];
@@ -52,8 +51,8 @@ struct SolverKernels {
     {
     }
 
-    // The planes of the operator lie together by groups of columns, for a pass reads all of them: a stream of
-    // memory instead of 36, which neither the prefetcher nor the buffers of translations can follow.
+    // The operator's planes are stored together in groups of columns, since a pass reads all of them: one
+    // stream of memory instead of 36, which would exceed the prefetcher and the TLB.
     static constexpr int group_columns = 16, operator_planes = level_planes - plane_block;
     static constexpr bool is_of_operator(int plane) { return plane >= plane_block && plane < level_planes; }
     static int in_groups(int plane, int o)
@@ -63,7 +62,7 @@ struct SolverKernels {
                                 place % group_columns) +
                (plane - plane_block) * group_columns;
     }
-    /// Where offset 0 would be. On a mesh nothing lies before the one row's offsets, and its planes begin
+    /// The address of offset 0. On a mesh nothing precedes the offsets of its only row, and its planes begin
     /// there.
     Number* operator_of(const SolverLevel& of) const
     {
@@ -71,8 +70,7 @@ struct SolverKernels {
         return context.arena + (of.base + plane_block * of.size + first - in_groups(plane_block, first));
     }
 
-    // Planes are addressed by pointers and their distance, three from one: that is what the processor does
-    // for nothing.
+    // Planes are addressed by a pointer and their distance, which x86 addressing computes for free.
     using Distance = decltype(static_cast<Number*>(nullptr) - static_cast<Number*>(nullptr));
     Distance apart(int plane) const { return is_of_operator(plane) ? group_columns : size_; }
     Distance finer_apart(int plane) const { return is_of_operator(plane) ? group_columns : finer_size_; }
@@ -101,7 +99,7 @@ struct SolverKernels {
     }
     vec3 load3(int plane, int o) const { return three<&Lanes<T>::load>(at(plane, o), size_); }
     Symmetric load6(int plane, int o) const { return six<&Lanes<T>::load>(at(plane, o), apart(plane)); }
-    /// Where the lanes may reach into the next group.
+    /// For offsets where the lanes may reach into the next group.
     Symmetric load6_anywhere(int plane, int o) const
     {
         const int rest = group_columns - static_cast<int>(static_cast<unsigned>(o) % group_columns);
@@ -129,7 +127,7 @@ struct SolverKernels {
         put3(p, size, a.xx, a.xy, a.xz);
         put3(p + 3 * size, size, a.yy, a.yz, a.zz);
     }
-    /// Every other node of the finer level, one for each lane.
+    /// Every second node of the finer level, one per lane.
     vec3 finer_load3(int plane, int o) const
     {
         return three<&Lanes<T>::load_even>(finer_at(plane, o), finer_size_);
@@ -139,7 +137,7 @@ struct SolverKernels {
         static_assert(Lanes<T>::count == 1, "packs coarsen by rows");
         return six<&Lanes<T>::load>(finer_at(plane, o), finer_apart(plane));
     }
-    /// Adds to the nodes of the finer level at o and after it, by turns, where there are free nodes.
+    /// Adds alternately to the nodes of the finer level at and after o, if they are free.
     void finer_add3(int plane, int o, vec3 even, vec3 odd) const
     {
         const Number *low = finer_at(plane_factor, o), *high = finer_at(plane_factor, o + Lanes<T>::count);
@@ -158,7 +156,7 @@ struct SolverKernels {
     static vec3 spread(Vector3<Number> a) { return {spread(a.x), spread(a.y), spread(a.z)}; }
     int source_plane() const { return detail_ % 2 == 0 ? plane_correction : plane_correction_2; }
     int target_plane() const { return detail_ % 2 == 0 ? plane_correction_2 : plane_correction; }
-    /// Of sheet_prolong, which reads one copy of its own level and adds to another of the finer one.
+    /// For sheet_prolong, which reads one copy of the correction and adds to the other on the finer level.
     int finer_plane() const { return detail_ / 2 % 2 == 0 ? plane_correction : plane_correction_2; }
     real relaxation() const { return spread(constants.relaxations[detail_ / 2]); }
     real scalar(int k) const { return spread(context.scalars[k]); }
@@ -233,7 +231,7 @@ struct SolverKernels {
     bool remembers_any() const { return constants.remembers[0] || constants.remembers[1]; }
     real softest(int k) const { return spread(constants.softest[k]); }
     real softest_limit() const { return spread(constants.softest_limit); }
-    /// Of a mesh's edges from e on: `held` of those that hold a node, and else `other`.
+    /// For a mesh's edges from e on: `held` for edges to a pin, else `other`.
     real where_held_edge(int e, Number held, Number other) const
     {
         return choose(Lanes<T>::first_lanes(level.held - e), spread(other),
@@ -297,7 +295,7 @@ struct SolverKernels {
     mask inside_level() const { return inside_; }
 
     int topology(int k) const { return context.topology[k]; }
-    /// Of a mesh's edges: numbers of one edge lie together, and whether it is taut with its force.
+    /// Data of a mesh's edges: the numbers of an edge are consecutive, with its taut flag next to its force.
     Number* edge_at(int plane, int numbers, int e) const
     {
         Number* first = context.arena + level.edge_base;
@@ -305,7 +303,7 @@ struct SolverKernels {
         if (plane == edge_taut) return first + (edge_force * level.edge_size + 4 * e + 3);
         return first + (plane * level.edge_size + numbers * e);
     }
-    /// Of edges e and after it.
+    /// For the edges from e on.
     real edge_load(int plane, int e) const { return Lanes<T>::load(edge_at(plane, 1, e)); }
     void edge_store(int plane, int e, real a) const { *edge_at(plane, 1, e) = Lanes<T>::first(a); }
     vec3 edge_load3(int plane, int e) const
@@ -373,17 +371,16 @@ struct SolverKernels {
 #include "kernels/linear.kernel.glsl"
 #include "kernels/newton.kernel.glsl"
 #include "kernels/sheet.kernel.glsl"
-    // For one invocation, and T a plain number:
+    // For one invocation; T is a plain number:
 #include "kernels/bottom.kernel.glsl"
 #include "kernels/mesh.kernel.glsl"
 #include "kernels/paper.kernel.glsl"
 #include "kernels/serial.kernel.glsl"
 
-    // --- how they run ---
+    // --- running passes ---
 
-    /// Runs the part [begin, end) of a pass over nodes: rows, or of a mesh, which has but one, groups of
-    /// `sum_columns`. In a solve of ACAD the live ones alone are there and counted
-    /// (kernels/acad.kernel.glsl).
+    /// Runs the part [begin, end) of a pass over nodes: rows of a sheet, or groups of `sum_columns` nodes of
+    /// a mesh. In a solve of ACAD only live ones are numbered (kernels/acad.kernel.glsl).
     void run(Pass pass, int begin, int end)
     {
         if (!is_acad() || !is_live(unit_of(pass))) return run_rows(pass, begin, end);
@@ -401,8 +398,8 @@ struct SolverKernels {
                 first = row;
         finish(row);
     }
-    /// The same of rows, or groups, that lie side by side. A loop as the table of passes names it; meshes and
-    /// the solver paper are run one by one, but for what meshes have lanes for.
+    /// The same for consecutive rows or groups. Runs the loop that the table of passes names; meshes without
+    /// lanes, and the paper's solver, run one unit at a time.
     void run_rows(Pass pass, int begin, int end)
     {
         constexpr bool scalar = Lanes<T>::count == 1;

@@ -1,7 +1,7 @@
-// How a part of a pass is run: over rows, nodes or edges, in groups of which each leaves one part of a sum.
-// Part of SolverKernels (solver_kernels.hpp).
+// Runs a part of a pass: over rows, nodes or edges, in groups that each write one part of a sum. Part of
+// SolverKernels (solver_kernels.hpp).
 
-// A kernel over each unit of a pass (PassUnit).
+// Runs a kernel over each unit of a pass (PassUnit).
 template <auto kernel>
 void over_level_node(Pass pass, int begin, int end)
 {
@@ -74,7 +74,7 @@ void over_active_row(Pass pass, int begin, int end)
     rows<kernel>(pass, begin, end, whole(scalar(scalar_rows)));
 }
 
-/// Rows in groups of `sum_columns`; those beyond the `count`-th row have nothing but empty sums.
+/// Rows in groups of `sum_columns`; rows from the `count`-th on have empty sums.
 template <auto kernel>
 void rows(Pass pass, int begin, int end, int count)
 {
@@ -85,7 +85,7 @@ void rows(Pass pass, int begin, int end, int count)
         self.summed(slots, group, first, last < count ? last : count, [&](int k) { (self.*kernel)(k); });
     }
 }
-/// Calls function(row, first, last) for the columns of each row, or for those of groups of the only one.
+/// Calls function(row, first, last) for the columns of each row, or for each group of a single row.
 template <class Function>
 KERNEL void for_each_row(int begin, int end, const Function& function) const
 {
@@ -95,7 +95,7 @@ KERNEL void for_each_row(int begin, int end, const Function& function) const
         function(0, begin * sum_columns,
                  end * sum_columns < level.columns ? end * sum_columns : level.columns);
 }
-/// Calls function(row, first, last) for each group of columns that one part of a sum is made of.
+/// Calls function(row, first, last) for each group of columns that forms one part of a sum.
 template <class Function>
 KERNEL void for_each_group(int begin, int end, const Function& function) const
 {
@@ -107,9 +107,9 @@ KERNEL void for_each_group(int begin, int end, const Function& function) const
 template <auto kernel>
 void nodes(Pass pass, int begin, int end)
 {
-    SolverKernels self = *this;  // whose address nobody else knows
+    SolverKernels self = *this;  // a local copy, so that the compiler knows of no aliases
     const SumSlots slots = sum_slots_of(pass);
-    if (slots.count > 0 && is_cloth_)  // nobody reads sums over coarser levels
+    if (slots.count > 0 && is_cloth_)  // sums over coarser levels are not used
         return for_each_group(begin, end, [&](int row, int first, int last) {
             self.template nodes_of_group<kernel>(slots, row, first, last);
         });
@@ -134,7 +134,7 @@ void mesh_clear_rows(Pass pass, int begin, int end)
     clear_parts(begin, end);
     nodes<&SolverKernels::mesh_clear>(pass, begin, end);
 }
-/// The parts of sums that passes of ACAD's solve leave: of rows that are not live nobody writes them.
+/// Clears the parts of sums in a solve of ACAD: rows that are not live do not write theirs.
 void clear_parts(int begin, int end) const
 {
     if (!is_cloth_) return;
@@ -146,8 +146,7 @@ void clear_parts(int begin, int end) const
     });
 }
 int part_of(int row, int column) const { return row * sum_groups(level.columns) + column / sum_columns; }
-/// A group of sum_columns, of which there may be fewer or none left, and the part of the sums that it
-/// makes.
+/// A group of up to sum_columns units, and the part of the sums that it forms.
 template <class Function>
 KERNEL void summed(SumSlots slots, int part, int first, int last, const Function& kernel)
 {

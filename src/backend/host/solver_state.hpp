@@ -1,4 +1,4 @@
-// One cloth's constraint solver on the host: its numbers, and its passes over parts of them.
+// One cloth's constraint solver on the host: its numbers and its passes.
 #pragma once
 
 #include <algorithm>
@@ -15,23 +15,23 @@ namespace pliant {
 template <class T>
 class SolverState {
 public:
-    /// `hierarchy` must outlive it; empty, and there is no solver.
+    /// `hierarchy` must outlive it; if it is empty, there is no solver.
     SolverState(const ClothModel& model, const Hierarchy& hierarchy);
 
-    /// Whether a call is to be skipped.
+    /// Whether a call's guard skips it.
     bool skips(const Call& call) const
     {
         return call.guard != Guard::none && scalars_[static_cast<std::size_t>(call.guard)] != T(0);
     }
-    /// Rows of a sheet or groups of sum_columns that a call works on.
+    /// Rows of a sheet, or groups of sum_columns, in a call.
     std::size_t size_of(const Call& call) const;
-    /// Nodes in one of them, for the decision how many threads are worth it.
+    /// Nodes in one of them, from which the number of threads follows.
     std::size_t weight_of(const Call& call) const;
-    /// What a call's kernels need; valid until the next call of it.
+    /// The data of a call's kernels; valid until the next call of this function.
     const SolverContext<T>& context(const Call& call, PlainCloth<T>& cloth,
                                     const SolverConstants<T>& constants,
                                     std::span<const typename Laws<T>::Collider> colliders);
-    /// Runs a pass that has one invocation, and by the scalar kernels a part of any other.
+    /// Runs a pass of one invocation, or a part of any other pass with the scalar kernels.
     void run(const Call& call, const SolverContext<T>& context, std::size_t begin, std::size_t end) const;
 
     /// Overwrites numbers of the arena.
@@ -42,9 +42,9 @@ public:
                        [](Number a) { return static_cast<T>(a); });
     }
     void put_scalars(std::span<const T> values) { scalars_.assign(values.begin(), values.end()); }
-    /// Of a mesh, what packs go by; see SolverContext.
+    /// Sets the tables of a mesh for packs; see SolverContext.
     void set_lanes(const MeshLanes* lanes) { context_.lanes = lanes; }
-    /// Takes over the mass that the model has of a node now.
+    /// Copies the model's present mass of a node.
     void take_mass(const ClothModel& model, std::size_t node);
 
     std::span<const T> scalars() const { return scalars_; }
@@ -52,8 +52,8 @@ public:
     const Hierarchy& hierarchy() const { return *hierarchy_; }
 
 private:
-    /// Springs that a pass of the solver paper may have to do with.
-    std::size_t whole_size_of(const Call& call) const;  ///< live or not
+    /// Springs that a pass of the paper's solver may use.
+    std::size_t whole_size_of(const Call& call) const;  ///< whether live or not
 
     const Hierarchy* hierarchy_;
     bool corrects_steps_;

@@ -1,4 +1,4 @@
-// Where the table of passes asks for barriers between the calls of a program.
+// Decides from the table of passes where a program needs barriers.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace pliant::vulkan {
 
-/// Asked call by call: whether there has to be one before a call, since it touches what an earlier one wrote,
-/// or writes what an earlier one read.
+/// Asked call by call whether a barrier is needed before it: if it touches what an earlier call wrote, or
+/// writes what an earlier one read.
 class BarrierPlan {
 public:
     bool needed_before(const Call& call)
@@ -36,7 +36,7 @@ private:
     using Key = std::pair<std::uint32_t, std::uint32_t>;  // cloth, physical buffer
     static Key key(const Call& call, Resource resource)
     {
-        // The two copies of the state by their place, not by their role.
+        // The two copies of the state are identified by place, not by role.
         constexpr std::uint32_t copies = 100;
         switch (resource) {
             case Resource::position: return {call.cloth, copies + call.parity};

@@ -7,7 +7,7 @@ namespace pliant::vulkan {
 std::span<const Binding> bindings_of(PassLayout layout)
 {
     using enum Binding;
-    // At most ten storage buffers in a row.
+    // At most ten storage buffers per layout.
     static constexpr std::array nodes{parameters,     position_in, velocity_in, position_out, velocity_out,
                                       external_force, colliders,   normal,      strain,       measures};
     static constexpr std::array springs_{
@@ -57,7 +57,7 @@ PassLayout layout_of(Pass pass)
     }
 #include "solve/passes.def"
     }
-    // Of a solver. What the state becomes is bound for both: pinned nodes are found where they are going.
+    // A solver's layout. The next state is bound even for reading: it has the positions to which pins move.
     for (const Resource resource : description_of(pass).reads)
         if (resource == Resource::position || resource == Resource::velocity ||
             resource == Resource::next_velocity || resource == Resource::external_force)

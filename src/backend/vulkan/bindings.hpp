@@ -1,5 +1,5 @@
-// Which buffer of a cloth has which place in the shaders, and which of them a pass binds: layouts for passes
-// of a kind, so that none has more than devices of phones and headsets can bind at once.
+// The binding of each buffer of a cloth, and the bindings of each pass. Passes share a few layouts, small
+// enough for the limits of phones and headsets.
 #pragma once
 
 #include <cstdint>
@@ -23,20 +23,20 @@ constexpr bool is_uniform(Binding binding)
     return binding == Binding::parameters || binding == Binding::solver;
 }
 
-/// What passes bind, by name.
+/// The layouts of passes.
 enum class PassLayout : std::uint32_t {
-    nodes,        ///< what every cloth has, and sheets
+    nodes,        ///< data of every cloth, and sheets
     springs,      ///< passes over lists of springs
-    list_steps,   ///< steps of what has such lists
+    list_steps,   ///< steps from lists of springs
     triangles,    ///< passes over the triangles around a node
     body_forces,  ///< soft bodies: up to the rates of volume
-    body_volume,  ///< and from there on
-    solver,       ///< solvers: what works on their own numbers
-    solver_ends,  ///< and what brings the state there and back
+    body_volume,  ///< soft bodies: from there on
+    solver,       ///< solvers: passes on their own data
+    solver_ends,  ///< solvers: passes that read or write the state
 };
 constexpr std::uint32_t layout_count = 8;
 
-/// What a layout binds, in ascending order. Every shader finds there what it uses
+/// The bindings of a layout, in ascending order. They include all that its shaders use
 /// (tests/device_limits_test.cpp).
 std::span<const Binding> bindings_of(PassLayout layout);
 PassLayout layout_of(Pass pass);

@@ -25,7 +25,7 @@ BodyBuffers::BodyBuffers(const Device& device, const ClothModel& model)
     records_ = {cubic_sums_.first + cubic_sums_.count, size(body.parts)};
     volumes_ = {records_.first + records_.count, size(body.parts)};
 
-    // As shaders/body.glsl reads it: first where each list begins, then the lists.
+    // As in shaders/body.glsl: first the beginnings of the lists, then the lists.
     std::vector<std::uint32_t> t(16, 0);
     const auto begin = [&](std::size_t list) { t[list] = static_cast<std::uint32_t>(t.size()); };
     const auto push = [&](auto... numbers) { (t.push_back(numbers), ...); };

@@ -1,4 +1,4 @@
-// What soft bodies have on the device beside the state of their nodes.
+// Device buffers of soft bodies besides the state of their nodes.
 #pragma once
 
 #include <vector>
@@ -11,12 +11,12 @@ namespace pliant::vulkan {
 
 class BodyBuffers {
 public:
-    /// Buffers of no size for a cloth.
+    /// Empty buffers for a cloth.
     BodyBuffers(const Device& device, const ClothModel& model);
 
     /// Work groups of a call of a body's pass.
     std::uint32_t groups_of(const Call& call) const;
-    /// Appends the copy of the measured volumes to where the host reads them.
+    /// Records a copy of the measured volumes to a buffer that the host reads.
     void record_volume_copy(const vk::raii::CommandBuffer& commands) const;
     double volume(std::size_t body) const;  ///< 6 V, m3
 
@@ -26,7 +26,7 @@ public:
     const Buffer& blocked() const { return blocked_; }
     const Buffer& sums() const { return sums_; }
 
-    /// Where the values of a resource lie in `sums`, in rows of four numbers.
+    /// Where the values of a resource begin in `sums`, in rows of four numbers.
     struct Rows {
         std::uint32_t first = 0, count = 0;
     };

@@ -170,7 +170,7 @@ ClothBuffers::ClothBuffers(const Device& device, const ClothModel& model,
                                    Memory::device, "measures");
     root_ = device.make_buffer(2 * sizeof(Float4), Usage::eTransferDst, Memory::readback, "measured total");
     if (model.has_external_force()) {
-        std::fill(values.begin(), values.end(), Float4{});  // where no region's force acts
+        std::fill(values.begin(), values.end(), Float4{});  // zero at nodes without a region's force
         external_force_ = node_buffer("external force");
     }
 
@@ -215,7 +215,7 @@ ClothBuffers::ClothBuffers(const Device& device, const ClothModel& model,
             {Binding::velocity_in, &velocity_[parity]},
             {Binding::position_out, &position_[1 - parity]},
             {Binding::velocity_out, &velocity_[1 - parity]},
-            // Bound in any case, since the step reads it when there is air.
+            // Always bound, since the step reads it if there is air.
             {Binding::external_force, model.has_external_force() ? &external_force_ : &measures_},
             {Binding::springs, &springs_},
             {Binding::spring_rest_class, &spring_rest_class_},
@@ -240,7 +240,7 @@ ClothBuffers::ClothBuffers(const Device& device, const ClothModel& model,
             {Binding::slopes, &slopes_},
         };
         for (const auto& [binding, buffer] : bound)
-            if (buffer->size > 0) bind(device, parity, binding, *buffer);  // else this kind of cloth has none
+            if (buffer->size > 0) bind(device, parity, binding, *buffer);  // else unused by this cloth
     }
 }
 

@@ -1,5 +1,4 @@
-// One cloth on the device: one buffer per attribute, and the sets that bind them for either copy of the
-// state.
+// One cloth on the device: one buffer per attribute, and the descriptor sets for either copy of the state.
 #pragma once
 
 #include <array>
@@ -20,26 +19,26 @@ vk::raii::DescriptorSetLayout make_cloth_layout(const Device& device, PassLayout
 
 class ClothBuffers {
 public:
-    /// With what each PassLayout is on the device.
+    /// `layouts`: the device's descriptor set layout for each PassLayout.
     ClothBuffers(const Device& device, const ClothModel& model,
                  std::span<const vk::raii::DescriptorSetLayout> layouts);
 
     const ClothModel& model() const { return *model_; }
     const MeasureTree& tree() const { return tree_; }
-    /// Of families whose passes this kind of cloth takes; others have no sets.
+    /// Only for layouts that this kind of cloth uses; others have no sets.
     vk::DescriptorSet set(PassLayout layout, std::uint32_t parity) const
     {
         return *sets_[static_cast<std::size_t>(layout)][parity];
     }
     void bind_colliders(const Device& device, const Buffer& colliders);
-    /// Normals and strains are kept from the first time on that somebody looks at them. True when that is
-    /// now: what was recorded with these sets must then be recorded anew.
+    /// Allocates normals and strains when they are first read. Returns whether it did: commands recorded with
+    /// these sets must then be recorded again.
     bool make_room_for(const Device& device, Pass pass);
     /// Where the host's rows of a frame begin.
     struct FrameRows {
-        std::uint32_t colliders = 0;                ///< in colliders, of this cloth's origin
-        std::uint32_t attached = 0;                 ///< in rows of four numbers
-        std::uint32_t goals = 0, goals_stride = 0;  ///< in rows of four numbers; from step to step
+        std::uint32_t colliders = 0;                ///< first row of colliders, for this cloth's origin
+        std::uint32_t attached = 0;                 ///< first row, in rows of four numbers
+        std::uint32_t goals = 0, goals_stride = 0;  ///< first row, and rows per step
     };
     void set_parameters(double step_length, std::uint32_t collider_count, bool colliders_rest,
                         const FrameRows& rows, const GrabInput& grab);
@@ -47,17 +46,16 @@ public:
     void write(const Device& device, std::span<const Vec3> positions, std::span<const Vec3> velocities);
     void take_mass(const Device& device, std::uint32_t node);
 
-    /// The buffer behind a resource; for next_* that of the other parity.
+    /// The buffer of a resource; for next_* that of the other parity.
     const Buffer& buffer(Resource resource, std::uint32_t parity) const;
     std::size_t entry_count(Resource resource) const;
 
-    /// Makes room for what a program keeps aside; copies it there, or back again, with the barriers around
-    /// it.
+    /// Allocates the copies that a program saves; records the copy there, or back, with its barriers.
     void make_room_for(const Device& device, const Kept& kept);
     void record_keep(const vk::raii::CommandBuffer& commands, const Kept& kept) const;
     void record_put_back(const vk::raii::CommandBuffer& commands, const Kept& kept) const;
 
-    /// Appends the copy of the root of the measures to where the host reads it.
+    /// Records a copy of the root of the measures to a buffer that the host reads.
     void record_root_copy(const vk::raii::CommandBuffer& commands) const;
     MeasureTotals totals() const;
     const SolverBuffers& solver() const { return solver_; }
@@ -66,9 +64,9 @@ public:
 private:
     bool takes(PassLayout layout) const;
     void make_sets(const Device& device, std::span<const vk::raii::DescriptorSetLayout> layouts);
-    /// In all sets of this parity that have the binding.
+    /// In all sets of this parity with the binding.
     void bind(const Device& device, std::uint32_t parity, Binding binding, const Buffer& buffer);
-    /// A piece of a buffer, and where in kept_ it goes.
+    /// A range of a buffer, and its place in kept_.
     struct KeptPiece {
         const Buffer* buffer;
         vk::DeviceSize first, place, size;  ///< bytes
@@ -85,7 +83,7 @@ private:
     SolverBuffers solver_;
     BodyBuffers body_;
     vk::raii::DescriptorPool pool_{nullptr};
-    std::array<std::vector<vk::raii::DescriptorSet>, layout_count> sets_;  ///< of either parity
+    std::array<std::vector<vk::raii::DescriptorSet>, layout_count> sets_;  ///< by parity
 };
 
 }  // namespace pliant::vulkan

@@ -78,10 +78,10 @@ void Device::open(const DeviceOptions& options)
     }
     if (offers(physical_, VK_KHR_SHADER_FLOAT_CONTROLS_EXTENSION_NAME))
         extensions.push_back(VK_KHR_SHADER_FLOAT_CONTROLS_EXTENSION_NAME);
-    // Who offers this is no whole Vulkan (MoltenVK), and must be told that we know. All that it has is
-    // switched on.
+    // A device with this extension does not implement all of Vulkan (MoltenVK), and requires that we enable
+    // it. All its features are enabled.
     VkPhysicalDevicePortabilitySubsetFeaturesKHR portable{};
-    // Its name is declared with VK_ENABLE_BETA_EXTENSIONS alone, which would have to be set everywhere.
+    // Its name is declared only with VK_ENABLE_BETA_EXTENSIONS, which would have to be defined everywhere.
     portable.sType = static_cast<VkStructureType>(1000163000);
     const bool is_portable = offers(physical_, VK_KHR_PORTABILITY_SUBSET_EXTENSION_NAME);
     if (is_portable) {

@@ -1,4 +1,4 @@
-// The Vulkan devices of a machine: which can run the passes, which cannot and why.
+// The Vulkan devices of a machine: which can run the passes, and why others cannot.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@ namespace pliant::vulkan {
 
 constexpr const char* equal_bits = "equal bits on all machines";
 
-/// A version of Vulkan as people write it: 1.1.
+/// A version of Vulkan as text, such as 1.1.
 std::string version_text(std::uint32_t version);
 
-/// What `pliant info` shows of a physical device.
+/// The data of a physical device for `pliant info`.
 struct PhysicalDeviceInfo {
-    int index = -1;  ///< among those that can be used
+    int index = -1;  ///< among the usable devices
     std::string name;
     std::string kind;  ///< "discrete GPU", "integrated GPU", "virtual GPU", "software", "other"
     bool hardware = false;
@@ -25,16 +25,16 @@ struct PhysicalDeviceInfo {
     std::uint64_t max_buffer_range = 0;   ///< bytes of one storage buffer
     std::uint64_t max_allocation = 0;     ///< bytes of one piece of memory
     std::uint32_t max_shared_memory = 0;  ///< bytes
-    FloatControls float_controls;         ///< execution modes that it offers
-    std::string refusal;                  ///< why it cannot be used, a sentence; empty when it can
+    FloatControls float_controls;         ///< execution modes that it supports
+    std::string refusal;                  ///< why it cannot be used, a sentence; empty if it can
 
-    /// Whether a run gives the bits of all other machines, or why that is not promised.
+    /// Says that a run gives the same bits as on all machines, or why that is not promised.
     std::string promise() const;
 };
 
-/// Devices that can run the passes; empty when there is no loader or no driver. Never throws.
+/// Devices that can run the passes; empty without a loader or driver. Never throws.
 std::vector<PhysicalDeviceInfo> list_physical_devices() noexcept;
-/// Those that cannot, each with its reason. Never throws.
+/// Devices that cannot, each with its reason. Never throws.
 std::vector<PhysicalDeviceInfo> list_refused_devices() noexcept;
 
 }  // namespace pliant::vulkan

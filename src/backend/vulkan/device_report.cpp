@@ -62,7 +62,7 @@ std::vector<DeviceReport> report_devices() noexcept
         const auto instance = make_instance(context, false);
         for (const Candidate& candidate : candidates_of(instance)) reports.push_back(report_of(candidate));
     } catch (const std::exception&) {
-        reports.clear();  // no loader, no driver: there are no devices
+        reports.clear();  // no loader or driver: no devices
     }
     return reports;
 }

@@ -1,4 +1,4 @@
-// All that a report of a machine says of its Vulkan devices, usable or not.
+// The Vulkan devices in a machine's report, usable or not.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,13 @@ namespace pliant::vulkan {
 struct DeviceReport {
     PhysicalDeviceInfo info;
     std::string version;  ///< of Vulkan, as "1.3.239"
-    std::string driver;   ///< its name and what it says of itself; empty where it cannot be asked
-    std::uint32_t driver_version = 0, vendor_id = 0, device_id = 0;  ///< as Vulkan has them
+    std::string driver;   ///< its name and description; empty if unavailable
+    std::uint32_t driver_version = 0, vendor_id = 0, device_id = 0;  ///< in Vulkan's encoding
     std::vector<std::pair<std::string, std::uint64_t>>
-        limits;  ///< by Vulkan's names: those that passes may meet
+        limits;  ///< by their Vulkan names: those that matter to passes
 };
 
-/// Empty when there is no loader or no driver. Never throws.
+/// Empty without a loader or driver. Never throws.
 std::vector<DeviceReport> report_devices() noexcept;
 
 }  // namespace pliant::vulkan

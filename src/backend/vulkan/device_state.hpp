@@ -1,4 +1,4 @@
-// The device side of a running simulation, for whoever draws from its own buffers.
+// Device buffers of a running simulation, for drawing without copies.
 #pragma once
 
 #include <cstddef>
@@ -21,12 +21,11 @@ class DeviceState {
 public:
     virtual ~DeviceState() = default;
     virtual const std::shared_ptr<vulkan::Device>& device() const = 0;
-    /// Brings normals and strains up to the current positions on the device, and names the buffers, which
-    /// stay the same buffers for the life of the simulation except `position`, which alternates between two.
-    /// Cloths are numbered as the simulation has its models: those of a scene without soft bodies are its
-    /// cloths.
+    /// Updates normals and strains to the current positions on the device, and returns the buffers. They stay
+    /// the same for the life of the simulation, except `position`, which alternates between two. Cloths are
+    /// numbered as the simulation's models; without soft bodies these are the scene's cloths.
     virtual DeviceClothBuffers drawable(std::size_t cloth) = 0;
-    /// `position` of `drawable`, without bringing anything up to it.
+    /// The `position` of `drawable`, without any update.
     virtual vk::Buffer positions_on_device(std::size_t cloth) const = 0;
 };
 

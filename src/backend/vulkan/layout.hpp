@@ -1,4 +1,4 @@
-// shaders/layout.glsl as C++: what shaders and the host share of a cloth's memory on a device.
+// shaders/layout.glsl as C++: the memory layout of a cloth that shaders and the host share.
 #pragma once
 
 #include <cstddef>

@@ -4,7 +4,7 @@
 
 namespace pliant::vulkan {
 
-/// Memory of one type, mapped as a whole once somebody asks for it.
+/// Memory of one type, mapped as a whole when first needed.
 struct MemoryBlock {
     std::uint32_t type = 0;
     vk::DeviceSize size = 0;
@@ -96,8 +96,8 @@ MemoryPiece MemoryPool::take(const vk::MemoryRequirements& needs, std::uint32_t 
     return piece;
 }
 
-/// As large as all there is of the type already, so that few are needed and less than half is left over; but
-/// of small memories not much at once.
+/// A new block is as large as all blocks of its type so far, so that few are needed and less than half is
+/// unused; in small memories it is smaller.
 MemoryBlock& MemoryPool::add_block(vk::DeviceSize least, std::uint32_t type)
 {
     constexpr vk::DeviceSize smallest = 1u << 20, largest = 64u << 20, shares = 8;

@@ -1,5 +1,5 @@
-// Memory of buffers. Drivers allow few allocations (4,096 by many), and each is slow: so buffers take pieces
-// of large blocks. Images have memory of their own, so that nothing here needs to keep both kinds apart.
+// Memory of buffers. Drivers allow few allocations (many only 4,096), and each is slow, so buffers take
+// ranges of large blocks. Images have their own memory, so both kinds never share a block.
 #pragma once
 
 #include <cstdint>
@@ -16,25 +16,25 @@
 
 namespace pliant::vulkan {
 
-/// Which parts of a block are free.
+/// The free ranges of a block.
 class FreeRanges {
 public:
     explicit FreeRanges(std::uint64_t size) : size_(size) { ranges_[0] = size; }
 
-    /// The smallest that is large enough is cut; nothing when there is none. `alignment` is a power of two.
+    /// Takes from the smallest range that fits; empty if none does. `alignment` is a power of two.
     std::optional<std::uint64_t> take(std::uint64_t size, std::uint64_t alignment);
-    /// What `take` gave, of the same size; it joins its free neighbours.
+    /// Returns a range of `take`, with the same size; it merges with its free neighbours.
     void give(std::uint64_t first, std::uint64_t size);
     bool is_whole() const { return ranges_.size() == 1 && ranges_.begin()->second == size_; }
 
 private:
     std::uint64_t size_;
-    std::map<std::uint64_t, std::uint64_t> ranges_;  ///< bytes of a range, by where it begins
+    std::map<std::uint64_t, std::uint64_t> ranges_;  ///< size of each range, by its beginning; bytes
 };
 
 class MemoryPool;
 
-/// Of a block; goes back to its pool, which must live longer, when it is gone.
+/// A range of a block. Its destructor returns it to its pool, which must live longer.
 class PLIANT_INSIDE MemoryPiece {
 public:
     MemoryPiece() = default;
@@ -48,7 +48,7 @@ public:
 
     vk::DeviceMemory memory() const;
     vk::DeviceSize offset() const { return offset_; }
-    void* mapped() const { return mapped_; }  ///< null unless it was asked for
+    void* mapped() const { return mapped_; }  ///< null unless requested
 
 private:
     friend class MemoryPool;
@@ -67,17 +67,17 @@ private:
     void* mapped_ = nullptr;
 };
 
-/// Threads may share it.
+/// Thread-safe.
 class PLIANT_INSIDE MemoryPool {
 public:
-    /// `most` is what one allocation may have, in bytes.
+    /// `most`: the maximum size of one allocation, bytes.
     MemoryPool(const vk::raii::Device& device, const vk::PhysicalDeviceMemoryProperties& properties,
                vk::DeviceSize most);
     ~MemoryPool();
 
-    /// Throws vk::SystemError when there is no more.
+    /// Throws vk::SystemError if the memory is exhausted.
     MemoryPiece take(const vk::MemoryRequirements& needs, std::uint32_t type, bool mapped);
-    /// Blocks that there are.
+    /// The number of blocks.
     std::size_t allocation_count() const;
 
 private:

@@ -71,7 +71,7 @@ std::uint32_t PassPipelines::sheet_steps(std::uint32_t most) const
 vk::raii::Pipeline PassPipelines::made(const Device& device, const Dispatch& dispatch) const
 {
     const Pass pass = dispatch.call.pass;
-    std::vector<std::uint32_t> constants;  // what the shader's constants 0, 1, ... are set to
+    std::vector<std::uint32_t> constants;  // values of the shader's constants 0, 1, ...
     std::span<const std::uint32_t> exact = compute_shader(pass), code;
     if (fast_math_) code = fast_compute_shader(pass);
     if (dispatch.steps > 1) {

@@ -1,5 +1,5 @@
-// The pipelines of passes; compiling them takes its time, so that all simulations of a device share them, and
-// only those are made that a program names.
+// The pipelines of passes. Compiling them takes long, so all simulations of a device share them, and each is
+// made only when a program needs it.
 #pragma once
 
 #include <array>
@@ -15,23 +15,23 @@
 
 namespace pliant::vulkan {
 
-/// Threads may share it.
+/// Thread-safe.
 class PassPipelines {
 public:
     PassPipelines(const Device& device, bool fast_math);
 
-    /// Those of a device.
+    /// The pipelines of a device.
     static std::shared_ptr<PassPipelines> of(const Device& device, bool fast_math);
 
-    /// Makes those of some dispatches that are not there yet. Throws Error(device_failure) where one is
-    /// beyond the limits of the device.
+    /// Makes the missing pipelines of some dispatches. Throws Error(device_failure) if one exceeds the
+    /// device's limits.
     void make(const Device& device, std::span<const Dispatch> dispatches);
     /// How many have been made.
     std::size_t made_count() const;
 
-    /// Of a dispatch that `make` has seen.
+    /// The pipeline of a dispatch that was passed to `make`.
     vk::Pipeline of(const Dispatch& dispatch) const;
-    /// How many steps of a sheet the device can make in a dispatch, `most` at most.
+    /// How many steps of a sheet, up to `most`, the device can make in one dispatch.
     std::uint32_t sheet_steps(std::uint32_t most) const;
     const SheetTile& tile(std::uint32_t steps) const { return tiles_[steps]; }
 
@@ -48,7 +48,7 @@ private:
     std::vector<vk::raii::PipelineLayout> layouts_;
     std::array<SheetTile, most_sheet_steps + 1> tiles_;  // by the number of steps, from 2 on
     std::vector<vk::raii::Pipeline> pipelines_;          // by Pass, then by the number of steps
-    mutable std::mutex turn_;                            // of pipelines_
+    mutable std::mutex turn_;                            // guards pipelines_
 };
 
 }  // namespace pliant::vulkan

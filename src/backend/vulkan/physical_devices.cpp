@@ -26,7 +26,7 @@ std::string refusal_of(const vk::raii::PhysicalDevice& physical)
     if (properties.apiVersion < least_version)
         return "it has Vulkan " + version_text(properties.apiVersion) + ", and " +
                version_text(least_version) + " is needed";
-    if (best_queue_family(physical) < 0) return "it has no queue that computes";
+    if (best_queue_family(physical) < 0) return "it has no compute queue";
     const std::string beyond = passes_beyond_limits(properties.limits);
     return beyond.empty() ? beyond : "it cannot run " + beyond;
 }
@@ -37,7 +37,7 @@ bool is_among(const auto& extensions, const char* name)
                        [&](const auto& known) { return std::strcmp(known.extensionName, name) == 0; });
 }
 
-/// Those of which is said whether they are refused.
+/// Lists the devices that are refused, or those that are not.
 std::vector<PhysicalDeviceInfo> listed(bool refused) noexcept
 {
     std::vector<PhysicalDeviceInfo> result;
@@ -47,7 +47,7 @@ std::vector<PhysicalDeviceInfo> listed(bool refused) noexcept
         for (Candidate& candidate : candidates_of(instance))
             if (candidate.info.refusal.empty() != refused) result.push_back(std::move(candidate.info));
     } catch (const std::exception&) {
-        result.clear();  // no loader, no driver: there are no devices
+        result.clear();  // no loader or driver: no devices
     }
     return result;
 }
@@ -64,9 +64,9 @@ std::string PhysicalDeviceInfo::promise() const
 {
     if (float_controls.flush_denormals && float_controls.round_to_nearest) return equal_bits;
     std::string why;
-    if (!float_controls.flush_denormals) why = "it cannot be told to flush denormals (DenormFlushToZero)";
+    if (!float_controls.flush_denormals) why = "it cannot be set to flush denormals (DenormFlushToZero)";
     if (!float_controls.round_to_nearest)
-        why += std::string(why.empty() ? "it cannot be told" : ", nor") +
+        why += std::string(why.empty() ? "it cannot be set" : ", nor") +
                " to round to nearest (RoundingModeRTE)";
     return "equal bits are not promised: " + why;
 }
@@ -132,7 +132,7 @@ PhysicalDeviceInfo describe(const vk::raii::PhysicalDevice& physical)
         if (memory.memoryHeaps[i].flags & vk::MemoryHeapFlagBits::eDeviceLocal)
             info.memory = std::max<std::uint64_t>(info.memory, memory.memoryHeaps[i].size);
     info.refusal = refusal_of(physical);
-    if (properties.apiVersion < least_version) return info;  // and knows no more than that
+    if (properties.apiVersion < least_version) return info;  // its other properties need a later version
     using Properties = vk::PhysicalDeviceProperties2;
     using Limits = vk::PhysicalDeviceMaintenance3Properties;
     info.max_allocation = physical.getProperties2<Properties, Limits>().get<Limits>().maxMemoryAllocationSize;

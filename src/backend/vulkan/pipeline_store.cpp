@@ -12,7 +12,7 @@
 namespace pliant::vulkan {
 namespace {
 
-/// Before the driver's data: a driver trusts it, so that we look whether it is as it was written.
+/// Precedes the driver's data. A driver trusts that data, so it is verified first.
 struct FileHeader {
     std::array<char, 8> name{'p', 'l', 'i', 'a', 'n', 't', 'p', '1'};
     std::uint64_t sum = 0;
@@ -26,7 +26,7 @@ std::uint64_t sum_of(const std::vector<std::uint8_t>& data)
     return sum;
 }
 
-/// Of a device with its driver: data of another is in a file of its own.
+/// The name includes device and driver: others have their own file.
 std::string file_name(const vk::PhysicalDeviceProperties& properties)
 {
     std::string name = "pipelines-";
@@ -38,7 +38,7 @@ std::string file_name(const vk::PhysicalDeviceProperties& properties)
     return name + ".bin";
 }
 
-/// Empty when there is no file, or none that is whole.
+/// Empty if there is no file, or a damaged one.
 std::vector<std::uint8_t> read_file(const std::filesystem::path& file)
 {
     std::ifstream stream(file, std::ios::binary);
@@ -80,7 +80,7 @@ void PipelineStore::keep() noexcept
                             static_cast<std::streamsize>(data.size()));
         file.commit();
     } catch (const std::exception&) {
-        file_.clear();  // a folder that cannot be written: the next run compiles again, and that is all
+        file_.clear();  // The folder cannot be written: the next run compiles the pipelines again.
     }
 }
 

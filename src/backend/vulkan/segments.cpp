@@ -8,17 +8,17 @@ namespace pliant::vulkan {
 std::vector<Segment> segments_of(std::span<const Call> calls)
 {
     const auto count = static_cast<std::uint32_t>(calls.size());
-    std::map<std::uint32_t, std::uint32_t> ends;  // by call that is looked at: the first one behind its loop
+    std::map<std::uint32_t, std::uint32_t> ends;  // by tested call: the first one after its loop
     std::vector<std::uint32_t> cuts{0, count};
     const bool may_idle =
         std::any_of(calls.begin(), calls.end(), [](const Call& c) { return c.guard == Guard::idle; });
-    std::uint32_t unseen = 0;  // calls since a look
+    std::uint32_t unseen = 0;  // calls since the last test
     for (std::uint32_t k = 0; k < count; ++k, ++unseen) {
         const Call& call = calls[k];
         const bool begins = k == 0 || calls[k - 1].guard == Guard::none || calls[k - 1].cloth != call.cloth;
         if (call.guard == Guard::none || call.guarded_after + 1 < least_skipped) continue;
         const Pass before = k > 0 ? calls[k - 1].pass : call.pass;
-        if (before == Pass::solve_begin && !may_idle) continue;  // which says that there is something to do
+        if (before == Pass::solve_begin && !may_idle) continue;  // there is always work
         const std::uint32_t least = before == Pass::newton_check ? least_skipped : least_between_looks;
         if (!begins && unseen < least) continue;
         ends[k] = k + call.guarded_after + 1;

@@ -49,7 +49,7 @@ std::vector<std::uint32_t> with_exact_arithmetic(std::span<const std::uint32_t> 
                                                    142};  // OpFAdd, OpFSub, OpFMul, OpVectorTimesScalar
     std::vector<std::uint32_t> results;
     std::set<std::uint32_t> decorated;
-    std::size_t types = 0;  // where annotations end
+    std::size_t types = 0;  // the end of the annotations
     for (std::size_t at = header_words; at < code.size(); at += code[at] >> 16) {
         const std::uint32_t op = code[at] & 0xffff;
         if (op == op_decorate && code[at + 2] == no_contraction) decorated.insert(code[at + 1]);
@@ -77,7 +77,7 @@ std::vector<std::uint32_t> with_float_controls(std::span<const std::uint32_t> co
     };
     const Mode modes[] = {{controls.flush_denormals, 4465, 4460},    // DenormFlushToZero
                           {controls.round_to_nearest, 4467, 4462}};  // RoundingModeRTE
-    // Before SPIR-V 1.4 both are an extension's, whose name is a string of its own length in words.
+    // Before SPIR-V 1.4 both belong to an extension, whose name is a string with its length in words.
     constexpr char extension_name[] = "SPV_KHR_float_controls";
     std::array<std::uint32_t, 1 + (sizeof extension_name + 3) / 4> extension{};
     extension[0] = static_cast<std::uint32_t>(extension.size()) << 16 | op_extension;

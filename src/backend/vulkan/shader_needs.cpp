@@ -91,7 +91,7 @@ private:
     };
     struct Function {
         std::set<std::uint32_t> variables, called, loaded, stored;
-        std::map<std::uint32_t, std::uint32_t> places;  ///< by pointer: the variable that it leads into
+        std::map<std::uint32_t, std::uint32_t> places;  ///< by pointer: the variable that it points into
     };
 
     void declare(std::uint32_t operation, Words words)
@@ -150,7 +150,7 @@ private:
         }
     }
 
-    /// Numbers among the words may be taken for variables; those make a function use more than it does, never
+    /// Literal words may be mistaken for variables; a function then seems to use more than it does, never
     /// less.
     void read(Function& function, std::uint32_t operation, Words words)
     {
@@ -174,15 +174,14 @@ private:
         return (bytes + alignment - 1) / alignment * alignment;
     }
 
-    /// Of what has no size of its own, such as an array without an end, none.
+    /// Types without a fixed size, such as runtime arrays, count as 0.
     Size size_of(std::uint32_t type) const
     {
         const auto found = sizes_.find(type);
         return found == sizes_.end() ? Size{} : found->second;
     }
 
-    /// Where the members lie is said of blocks; of shared memory the limit counts them as std430 lays them
-    /// out.
+    /// Blocks have explicit offsets; shared memory is counted as if laid out by std430.
     Size size_of_members(std::uint32_t type, Words members) const
     {
         Size whole;
@@ -198,7 +197,7 @@ private:
         return whole;
     }
 
-    /// What sizes of arrays are made of; else 0.
+    /// The value of an expression for the size of an array; else 0.
     std::uint32_t computed(std::uint32_t operation, Words operands) const
     {
         if (operation == op::composite_extract) return numbers_.at(composites_.at(operands[0])[operands[1]]);
@@ -214,7 +213,7 @@ private:
         }
     }
 
-    /// Of all functions that are called, together.
+    /// The union over all reachable functions.
     std::set<std::uint32_t> reached(std::set<std::uint32_t> Function::*of_function) const
     {
         std::set<std::uint32_t> all, seen;

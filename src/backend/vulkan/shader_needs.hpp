@@ -1,4 +1,4 @@
-// What a compute shader asks of a device, read from its SPIR-V.
+// The requirements of a compute shader, read from its SPIR-V.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ struct ShaderNeeds {
     std::array<std::uint32_t, 3> group_size{1, 1, 1};
     std::uint64_t shared_memory = 0;   ///< bytes
     std::uint64_t push_constants = 0;  ///< bytes
-    std::uint64_t uniform_range = 0;   ///< bytes of the largest
+    std::uint64_t uniform_range = 0;   ///< bytes of the largest uniform block
 
     std::uint64_t invocations() const { return std::uint64_t{group_size[0]} * group_size[1] * group_size[2]; }
 };

@@ -7,11 +7,11 @@ namespace {
 
 constexpr std::uint32_t spring_reach = 2;           // of a spring, in nodes
 constexpr std::uint32_t node_bytes = 7 * 4;         // in shared memory
-constexpr std::uint32_t largest_region = 32 << 10;  // bytes, so that a processor has room for several groups
+constexpr std::uint32_t largest_region = 32 << 10;  // bytes, so that several groups fit on a multiprocessor
 constexpr std::uint32_t largest_side = 64;          // nodes
 
-/// Steps of the dispatches that `count` steps are made in. Those of an even number leave the state in another
-/// copy than so many single ones would, so that there has to be an even number of them.
+/// The numbers of steps per dispatch that add up to `count`. A dispatch with an even number of steps leaves
+/// the state in another copy than single steps would, so there must be an even number of these dispatches.
 std::vector<std::uint32_t> shares_of(std::uint32_t count, std::uint32_t most)
 {
     std::uint32_t whole = count / most;
@@ -35,7 +35,7 @@ SheetTile sheet_tile(const vk::PhysicalDeviceLimits& limits, std::uint32_t steps
 {
     const std::uint32_t nodes = std::min(limits.maxComputeSharedMemorySize, largest_region) / node_bytes;
     SheetTile best;
-    double least = 0;  // nodes that are computed for one that is left
+    double least = 0;  // computed nodes per node of the tile
     for (std::uint32_t columns = 8; columns <= largest_side; columns += 8) {
         const std::uint32_t halo = 2 * spring_reach * steps, region_rows = nodes / (columns + halo);
         if (region_rows <= halo) continue;

@@ -1,5 +1,5 @@
-// Several steps of a sheet in one dispatch (shaders/sheet_steps.comp): which calls are taken together, and by
-// tiles of what size.
+// Several steps of a sheet in one dispatch (shaders/sheet_steps.comp): which calls are combined, and the size
+// of tiles.
 #pragma once
 
 #include <cstdint>
@@ -12,23 +12,23 @@
 
 namespace pliant::vulkan {
 
-constexpr std::uint32_t most_sheet_steps = 4;  ///< of a dispatch
+constexpr std::uint32_t most_sheet_steps = 4;  ///< per dispatch
 
-/// What the constants of sheet_steps.comp are set to: nodes that a group leaves, and its invocations.
+/// The constants of sheet_steps.comp: rows and columns of a group's tile, and its invocations.
 struct SheetTile {
     std::uint32_t rows = 0, columns = 0, invocations = 0;
 };
-/// The tile for which the fewest nodes are computed beside it, of those that fit; no rows where none does.
+/// The fitting tile with the fewest additional nodes; no rows if none fits.
 SheetTile sheet_tile(const vk::PhysicalDeviceLimits& limits, std::uint32_t steps);
 
-/// Calls that are one dispatch: the first of them, and how many steps of a sheet they are.
+/// Calls in one dispatch: the first of them, and the number of a sheet's steps.
 struct Dispatch {
     Call call;
     std::uint32_t steps = 1;
 };
-/// All calls in their order; up to `most` steps of a sheet with nothing between them are taken together. A
-/// dispatch takes the state from one copy to the other, so that within such a run the copies are not those of
-/// the calls; behind it they are again.
+/// All calls in order; up to `most` consecutive steps of a sheet are combined. A dispatch takes the state
+/// from one copy to the other, so within such a run the copies differ from those of the calls; after it they
+/// agree again.
 std::vector<Dispatch> dispatches_of(std::span<const Call> calls, std::uint32_t most);
 
 }  // namespace pliant::vulkan

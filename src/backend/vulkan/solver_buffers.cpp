@@ -22,7 +22,7 @@ std::string arena_refusal(const ClothModel& model, const std::string& device, st
 {
     const std::uint64_t bytes = model.hierarchy.number_count * sizeof(float);
     if (bytes <= most) return {};
-    // The arena grows as the nodes do, but for a border.
+    // The size of the arena is proportional to the nodes, except for its border.
     return "the constraint solver of a cloth of " + std::to_string(model.node_count()) +
            " nodes takes a buffer of " + std::to_string(bytes) + " bytes, and on " + device +
            " the limit maxStorageBufferRange is " + std::to_string(most) + ", enough for about " +
@@ -128,7 +128,7 @@ void SolverBuffers::set_constants(double step_length)
         if (c.remembers[k]) block.tolerances[3] = c.curves[k].kept;
         block.remembers[3] |= block.remembers[k];
     }
-    block.softest[2] = c.softest_held;  // no bend spring remembers
+    block.softest[2] = c.softest_held;  // bend springs have no memory
     block.compliance[2] = c.softest_held_limit;
     block.softest[3] = c.softest_limit;
     block.compliance[3] = c.stiffest_limit;

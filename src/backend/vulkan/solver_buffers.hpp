@@ -17,14 +17,14 @@ struct Groups {
     std::uint64_t x = 0, y = 1;
 };
 
-/// Why the solver's numbers of a cloth do not fit into one buffer of `most` bytes, and how many nodes would;
-/// empty when they do.
+/// Why the arena of a cloth exceeds one buffer of `most` bytes, and how many nodes would fit; empty if it
+/// fits.
 std::string arena_refusal(const ClothModel& model, const std::string& device, std::uint64_t most);
 
-/// Nothing is in it when the cloth's hierarchy is empty.
+/// Empty if the cloth's hierarchy is empty.
 class SolverBuffers {
 public:
-    /// Throws Error(device_failure) when the device has no buffer as large as the arena.
+    /// Throws Error(device_failure) if the device's buffers are too small for the arena.
     SolverBuffers(const Device& device, const ClothModel& model);
 
     Groups groups_of(const Call& call) const;
@@ -37,9 +37,9 @@ public:
     const Buffer& topology() const { return topology_; }
     const Buffer& multiplier() const { return multiplier_; }
 
-    /// Whether calls of this guard are skipped, by the last copy of the scalars.
+    /// Whether calls of this guard are skipped, according to the last copy of the scalars.
     bool skips(Guard guard) const;
-    /// Appends the copy of the scalars to where the host reads them.
+    /// Records a copy of the scalars to a buffer that the host reads.
     void record_scalar_copy(const vk::raii::CommandBuffer& commands) const;
     double scalar(std::size_t number) const;
 

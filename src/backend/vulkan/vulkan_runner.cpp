@@ -33,8 +33,7 @@ ColliderRows pack_collider(const PlacedCollider& placed)
             .unused = {}};
 }
 
-/// A segment of a program as commands, with a timestamp before, between and after its stretches of calls of
-/// one pass.
+/// The commands of a segment, with a timestamp before, between and after its batches of calls of one pass.
 struct Recording {
     struct Stretch {
         Pass pass;
@@ -79,8 +78,8 @@ public:
 
     void run(const Program& program, const FrameInput& input) override
     {
-        // Colliders lie first, as each of the origins of cloths sees them; then places of attached nodes and
-        // goals of bodies, each a row of four numbers.
+        // Colliders come first, in the coordinates of each cloth's origin; then positions of attached nodes
+        // and targets of bodies, each a row of four numbers.
         const std::size_t placed = input.colliders.size();
         std::size_t rows = rows_of_collider * placed * origins_.size();
         for (const std::vector<Vec3>& places : input.attached) rows += places.size();
@@ -126,7 +125,7 @@ public:
         const ClothBuffers& buffers = cloths_[cloth];
         const std::size_t count = buffers.entry_count(resource);
         const bool drawn = resource == Resource::normal || resource == Resource::strain;
-        if (drawn && buffers.buffer(resource, parity).size == 0) {  // nobody has looked yet
+        if (drawn && buffers.buffer(resource, parity).size == 0) {  // not read before
             values.assign((resource == Resource::normal ? 3 : 1) * count, 0.0f);
             return;
         }
@@ -208,7 +207,7 @@ public:
 
     DeviceClothBuffers drawable(std::size_t cloth) override
     {
-        // Identities of drawing programs lie above those of any frame.
+        // Identities of drawing programs are above those of frames.
         const auto index = static_cast<std::uint32_t>(cloth);
         Program program{~0ull - (2ull * index + parity_), {}, parity_};
         if (recordings_.count(program.id) == 0)
@@ -220,7 +219,7 @@ public:
     }
 
 private:
-    /// A host that varies its frames does not fill the memory.
+    /// so that a host with varying frame lengths does not fill the memory
     static constexpr std::size_t most_recordings = 64;
 
     static std::size_t part_count(const ClothBuffers& cloth)
@@ -228,8 +227,8 @@ private:
         return cloth.model().body ? cloth.model().body->parts.size() : 0;
     }
 
-    /// Writes what is wanted of a cloth's bodies from row `first` on; returns the number of rows, and from
-    /// step to step.
+    /// Writes the targets of a cloth's bodies from row `first` on; returns the number of rows, and rows per
+    /// step.
     std::size_t write_goals(std::size_t c, const FrameInput& input, std::size_t first,
                             std::uint32_t& stride) const
     {
@@ -271,14 +270,14 @@ private:
             case PassUnit::merged_block: return {cloth.tree().levels[call.index].count};
             default: break;
         }
-        if (layout_of(call.pass) == PassLayout::nodes)  // of a sheet, then
+        if (layout_of(call.pass) == PassLayout::nodes)  // of a sheet
             return {groups(model.shape.sheet->columns, sheet_group_columns),
                     groups(model.shape.sheet->rows, sheet_group_rows)};
         return {groups(model.node_count(), linear_group)};
     }
 
-    /// Those of which all frames are made, so that the first frame need not wait for their pipelines; so many
-    /// steps that each share of them is there that dispatches_of gives.
+    /// The calls that all frames consist of, so that the first frame need not wait for their pipelines; with
+    /// enough steps that every number of steps per dispatch of dispatches_of occurs.
     std::vector<Call> usual_calls(std::span<const ClothModel> models) const
     {
         std::vector<Call> calls;
@@ -287,7 +286,7 @@ private:
         return calls;
     }
 
-    /// Every call of a frame must be one dispatch that the device can do.
+    /// Checks that the device can run every call of a frame in one dispatch.
     void check_sizes(std::span<const ClothModel> models) const
     {
         const auto most = device_->physical().getProperties().limits.maxComputeWorkGroupCount;
@@ -314,7 +313,7 @@ private:
     {
         const std::size_t bytes = count * sizeof(ColliderRows);
         if (colliders_.size >= bytes && colliders_.size > 0) return;
-        recordings_.clear();  // they hold the sets that change now
+        recordings_.clear();  // they refer to the sets that change now
         colliders_ =
             device_->make_buffer(bytes, vk::BufferUsageFlagBits::eStorageBuffer, Memory::upload, "colliders");
         for (ClothBuffers& cloth : cloths_) cloth.bind_colliders(*device_, colliders_);
@@ -345,7 +344,7 @@ private:
         }
     }
 
-    /// Its segments, none of them recorded: most of Newton's iterations are hardly ever needed.
+    /// The segments of a program, not yet recorded: most of Newton's iterations are rarely needed.
     static std::vector<Recording> cut(const Program& program)
     {
         std::vector<Recording> recordings;
@@ -382,7 +381,7 @@ private:
         if (timed) commands.resetQueryPool(*recording.queries, 0, query_count);
         if (segment.first == 0)
             for (const Kept& kept : program.keeps) cloths_[kept.cloth].record_keep(commands, kept);
-        // What the host or an earlier submission wrote.
+        // Writes by the host or an earlier submission.
         barrier(commands, vk::PipelineStageFlagBits::eAllCommands, vk::AccessFlagBits::eMemoryWrite,
                 vk::PipelineStageFlagBits::eComputeShader,
                 vk::AccessFlagBits::eShaderRead | vk::AccessFlagBits::eShaderWrite |
@@ -453,7 +452,7 @@ private:
 
     void take_times(const Recording& recording)
     {
-        // By the C entry: vulkan.hpp would allocate an array in every frame.
+        // Uses the C function: vulkan.hpp would allocate an array in every frame.
         const auto count = static_cast<std::uint32_t>(recording.stretches.size() + 1);
         ticks_.resize(count);
         const VkResult result = recording.queries.getDispatcher()->vkGetQueryPoolResults(
@@ -469,18 +468,18 @@ private:
 
     std::shared_ptr<Device> device_;
     std::shared_ptr<PassPipelines> pipelines_;
-    CommandLane lane_;  // its own: a simulation may step on another thread than the one that draws
+    CommandLane lane_;  // its own: the simulation may step on another thread than the drawing one
     std::vector<ClothBuffers> cloths_;
-    std::vector<Vec3d> origins_;          ///< different ones, of all cloths
+    std::vector<Vec3d> origins_;          ///< the distinct origins of all cloths
     std::vector<std::size_t> origin_of_;  ///< by cloth, index into origins_
     Buffer colliders_;
     std::map<std::uint64_t, std::vector<Recording>> recordings_;
     std::vector<std::uint64_t> ticks_;
-    std::vector<Float4> padded_;  ///< read last
+    std::vector<Float4> padded_;  ///< the last data read
     PassClock clock_;
     std::uint32_t parity_ = 0;
     bool fast_math_ = false;
-    std::uint32_t steps_at_once_ = 1;  ///< of a sheet, in one dispatch
+    std::uint32_t steps_at_once_ = 1;  ///< steps of a sheet per dispatch
 };
 
 }  // namespace
@@ -490,8 +489,8 @@ std::unique_ptr<VulkanRunner> make_vulkan_runner(std::span<const ClothModel> clo
 {
     if (options.gpu_substeps < 1 || options.gpu_substeps > most_sheet_steps)
         throw Error(ErrorKind::bad_usage, "gpu_substeps is " + std::to_string(options.gpu_substeps) +
-                                              ": a dispatch takes 1 to " + std::to_string(most_sheet_steps) +
-                                              " steps of a sheet");
+                                              ", but must be 1 to " + std::to_string(most_sheet_steps) +
+                                              " steps of a sheet per dispatch");
     try {
         return std::make_unique<Runner>(cloths, options);
     } catch (const vk::SystemError& error) {

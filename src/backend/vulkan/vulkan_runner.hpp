@@ -9,10 +9,10 @@
 
 namespace pliant {
 
-/// A runner that also lends its buffers for drawing.
+/// A runner that also gives access to its buffers for drawing.
 class VulkanRunner : public PassRunner, public DeviceState {};
 
-/// Throws Error(device_failure) when there is no such device or the cloths do not fit.
+/// Throws Error(device_failure) if there is no such device or the cloths do not fit.
 std::unique_ptr<VulkanRunner> make_vulkan_runner(std::span<const ClothModel> cloths,
                                                  const SimulationOptions& options);
 

@@ -1,6 +1,6 @@
 #version 460
-// What a picture needs of each node beside its positions: where it is seen between two states, the normal there, and the
-// largest stretch. The simulation keeps none of them, and the host has no part in it.
+// The data of each node for a picture: its position between two states, the normal there, and the largest strain. The
+// simulation stores none of these, and the host does not compute them.
 #extension GL_GOOGLE_include_directive : require
 #include "laws.glsl"
 #define SURFACE_ACCESS
@@ -13,14 +13,14 @@ layout(push_constant) uniform Style {
     uint node_count;
     uint rows, columns;         // of a sheet; 0 for a mesh, whose triangles `ring` has
     uint stride;                // floats of a node in `now` and in `before`
-    uint strain;                // 1: values are wanted
+    uint strain;                // 1: values are needed
 } style;
 
 vec3 place_of(uint node)
 {
     uint at = style.stride * node;
     vec3 last = vec3(now[at], now[at + 1u], now[at + 2u]);
-    if (frame.blend >= 1.0f) return last;  // not even an infinity of the state before is looked at
+    if (frame.blend >= 1.0f) return last;  // the previous state is ignored, even if infinite
     return mix(vec3(before[at], before[at + 1u], before[at + 2u]), last, frame.blend);
 }
 
@@ -33,7 +33,7 @@ vec3 quadrant(vec3 x, ivec2 at, ivec2 first, ivec2 second)
                            place_of(uint(b.x * size.y + b.y)));
 }
 
-// Algorithm 5 of the cloth paper, as the passes sheet_normal and mesh_normal have it.
+// Algorithm 5 of the cloth paper, as in the passes sheet_normal and mesh_normal.
 vec3 normal_of(uint node, vec3 x)
 {
     vec3 sum = vec3(0.0f);

@@ -1,15 +1,15 @@
 #version 450
-// From the surfaces to the picture: smooth lines where surfaces cut through each other. Outlines come after it.
+// Copies the surfaces to the picture, with smooth lines where surfaces intersect. Outlines are drawn afterwards.
 #extension GL_GOOGLE_include_directive : require
 #include "drawn.glsl"
 
 layout(location = 0) out vec4 colour;
 
-// Of depths. Surfaces closer to each other than that show in a random pattern, which is made softer.
+// Rounding of depth. Closer surfaces show in a random pattern, which is softened.
 const float rounding = 3e-7;
 
-// The part of a pixel that a neighbour's surface has, where it runs through that of the pixel. Depths are linear along the
-// line through both, so that each surface's is known from two pixels on its own side.
+// The part of a pixel covered by a neighbour's surface, where that surface intersects the pixel's own. Depths are linear
+// along the line through both, so each surface's depth follows from two pixels on its own side.
 float share(float before, float here, float next, float after)
 {
     float here_slope = here - before, next_slope = after - next;

@@ -1,5 +1,5 @@
-// The surfaces of the picture as the first pass has drawn them, one sample for each pixel.
-layout(set = 2, binding = 0) uniform sampler2D drawn;        // alpha: which surface, shaders/surfaces.glsl
+// The surfaces of the picture from the first pass, one sample per pixel.
+layout(set = 2, binding = 0) uniform sampler2D drawn;        // alpha: number of the surface, shaders/surfaces.glsl
 layout(set = 2, binding = 1) uniform sampler2D drawn_depth;
 
 ivec2 inside(ivec2 pixel) { return clamp(pixel, ivec2(0), textureSize(drawn, 0) - 1); }

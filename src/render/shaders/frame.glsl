@@ -1,4 +1,4 @@
-// What every shader knows of the frame. `FrameUniforms` in render/stage.hpp is the same in C++.
+// Frame constants for every shader. `FrameUniforms` in render/stage.hpp is the same in C++.
 layout(set = 0, binding = 0) uniform Frame {
     mat4 clip_from_world;
     mat4 shadow_from_world;  // xy in [0, 1] over the shadow map, z the depth in it
@@ -7,6 +7,6 @@ layout(set = 0, binding = 0) uniform Frame {
     vec4 picture;            // width and height in pixels, 1 / both
     float shadow_texel;      // m, edge of a texel of the shadow map
     float value_low, value_high;  // the ends of the colour map
-    float blend;             // what is seen lies between the state before (0) and the last one (1)
-    uint colours;            // of cloth: 0 a checker, 1 by value, 2 by value around a middle
+    float blend;             // position between the previous state (0) and the current one (1)
+    uint colours;            // cloth: 0 checker, 1 by value, 2 by value around a middle
 } frame;

@@ -18,7 +18,7 @@ const uvec2 glyphs[glyph_count] = uvec2[](
     uvec2(0xaac00u, 0x56b5u), uvec2(0xcd671u, 0x4631u), uvec2(0x78000u, 0x0000u), uvec2(0x00000u, 0x18c0u),
     uvec2(0xf9080u, 0x0084u), uvec2(0x2a421u, 0x24a3u));
 
-// Is there ink of this letter at a square counted from the letter's upper left corner?
+// Whether this letter has ink at a square, counted from its upper left corner.
 bool ink(int glyph, ivec2 at)
 {
     if (glyph >= glyph_count || any(lessThan(at, ivec2(0))) || at.x > 4 || at.y > 6) return false;
@@ -38,7 +38,7 @@ void main()
         colour = vec4(value_colour((float(at.x) + 0.5) / legend_size.x), 1.0);
         return;
     }
-    const int high_from = int(legend_size.x) - 8 * 6 + 1;  // its eight letters end with the bar
+    const int high_from = int(legend_size.x) - 8 * 6 + 1;  // right-aligns its eight letters with the bar
     int letter, origin;
     if (at.y < 7) {
         letter = letter_of(legend.title, at.x / 6);

@@ -1,5 +1,5 @@
-// Where the legend lies: measured in squares of `unit` pixels from its upper left corner.
-// `LegendText` in render/legend.hpp: letters by their place in the list of legend.frag, four to a number.
+// The place of the legend, in squares of `unit` pixels from its upper left corner. `LegendText` in render/legend.hpp:
+// letters by their index in legend.frag, four per number.
 layout(push_constant) uniform Legend {
     uvec4 title, low, high;
 } legend;

@@ -6,5 +6,5 @@ layout(location = 0) out vec4 colour;
 
 void main()
 {
-    colour = vec4(hue, max(0.0, 1.0 - abs(beside)));  // what a line of one pixel's width covers of it
+    colour = vec4(hue, max(0.0, 1.0 - abs(beside)));  // coverage by a line of one pixel's width
 }

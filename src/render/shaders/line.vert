@@ -5,9 +5,9 @@
 
 // `LineStyle` in render/scene_recording.cpp.
 layout(push_constant) uniform Style {
-    uint kind;     // 0: springs by class, 1: springs that a constraint holds, 2: normals, 3: edges of triangles
+    uint kind;     // 0: springs by class, 1: springs held by a constraint, 2: normals, 3: edges of triangles
     float reach;   // m, of a normal
-    uint count;    // of lines; the first is drawn last, over the others
+    uint count;    // number of lines; the first is drawn last, on top of the others
 } style;
 
 layout(location = 0) out vec3 hue;
@@ -19,13 +19,13 @@ const vec3 class_hues[4] = vec3[](vec3(0.85, 0.83, 0.75), vec3(0.10, 0.55, 0.75)
 vec4 seen_at(vec3 place)
 {
     vec4 at = frame.clip_from_world * vec4(place, 1.0);
-    at.z -= 1e-4 * at.w;  // in front of the cloth that it lies on, by a hundredth of its distance
+    at.z -= 1e-4 * at.w;  // a little nearer, so that the cloth does not hide it
     return at;
 }
 
 void main()
 {
-    // Two triangles around each line, as lines that drivers draw have no smooth sides.
+    // Two triangles per line, since lines drawn by drivers have no smooth sides.
     uint line = style.count - 1u - uint(gl_VertexIndex / 6);
     int corner = gl_VertexIndex % 6;
     bool at_last = corner == 1 || corner == 2 || corner == 4;

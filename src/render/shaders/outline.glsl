@@ -1,7 +1,7 @@
-// Smooth outlines. Surfaces are drawn with one sample for each pixel; where the outline of one passes through a pixel, the
-// pixel takes as much of its neighbour beyond the outline as the outline leaves of it (after E. Persson, "Geometric
-// post-process anti-aliasing", 2011). Four samples for each pixel look no better, and cost a machine that rasterises in
-// software three times as much for the many small triangles of a cloth.
+// Smooth outlines. Surfaces are drawn with one sample per pixel. Where an outline passes through a pixel, the pixel is
+// blended with its neighbour beyond the outline, by coverage (after E. Persson, "Geometric post-process anti-aliasing",
+// 2011). Four samples per pixel look no better, and software rasterisers take three times as long for the many small
+// triangles of a cloth.
 layout(location = 0) flat out ivec2 across;  // the direction of the neighbours: the axis that the edge runs along least
 layout(location = 1) out vec2 place;         // x: along the edge, 0 to 1; y: pixels across from it, along `across`
 layout(location = 2) flat out float strength;
@@ -11,16 +11,16 @@ vec3 seen_at(vec4 clip) { return vec3((clip.xy / clip.w * 0.5 + 0.5) * frame.pic
 
 float cross2(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 
-// How much nearer the triangle with a third corner, so many pixels away, gets within a pixel from the edge.
+// How much nearer the triangle gets within a pixel from the edge; its third corner is `away` pixels away.
 float rise(vec3 first, vec2 along, float slope, vec3 corner, float away)
 {
     float foot = dot(corner.xy - first.xy, along) / dot(along, along);
     return max(0.0, (first.z + foot * slope - corner.z) / max(1.0, abs(away)));
 }
 
-// One of the three corners of a triangle with what lies within half a pixel of an edge between two triangles; nowhere unless
-// one of them hides what lies beyond. A `sharp` edge, of a shape seen from outside alone, is there where any of them is seen, the
-// weaker the less of them: beyond a face that is thinner than a pixel, the neighbour shows another.
+// A vertex of the quad that covers half a pixel on either side of an edge between two triangles. Degenerate unless one of
+// the triangles hides the surface beyond. A `sharp` edge, of a shape seen only from outside, is drawn where either triangle
+// is visible, more weakly for thin faces: beyond a face thinner than a pixel, the neighbour belongs to another surface.
 void outline(vec4 first, vec4 second, vec4 third, vec4 fourth, bool border, bool sharp, int corner)
 {
     vec3 a = seen_at(first), b = seen_at(second), c = seen_at(third), d = seen_at(fourth);

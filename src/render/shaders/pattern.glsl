@@ -1,4 +1,4 @@
-// Patterns that stay smooth however small they get: each is filtered over the footprint of the pixel.
+// Anti-aliased patterns: each is filtered over the footprint of the pixel.
 
 // 0 or 1 over squares of edge 1, after I. Quilez, "filtering the checkerboard pattern" (box filter).
 float checker(vec2 at)
@@ -8,7 +8,7 @@ float checker(vec2 at)
     return clamp(0.5 - 0.5 * part.x * part.y, 0.0, 1.0);
 }
 
-// The part of a pixel that lies on lines of this width along the integers.
+// The part of a pixel covered by grid lines of this width at the integers.
 float grid(vec2 at, float line)
 {
     vec2 width = max(abs(dFdx(at)), abs(dFdy(at))) + 1e-5;

@@ -1,7 +1,7 @@
 #version 450
 
 layout(location = 0) in vec2 from_middle;
-layout(location = 1) in float depth;  // m, below the surface; at most 0 where it only touches
+layout(location = 1) in float depth;  // m, below the surface; at most 0 in mere contact
 layout(location = 0) out vec4 colour;
 
 void main()

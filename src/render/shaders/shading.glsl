@@ -1,5 +1,5 @@
-// Light: one shadowed sun, a weak light from the other side that keeps shapes readable in the shadow, and an ambient
-// term between the sky above and the ground below. Colours are linear; the target's sRGB format encodes them.
+// Light: one shadowed sun, a weak opposite light that keeps shapes readable in the shadow, and an ambient term between sky
+// and ground. Colours are linear; the target's sRGB format encodes them.
 layout(set = 0, binding = 1) uniform sampler2DShadow shadow_map;
 
 const vec3 sun     = vec3(0.98, 0.93, 0.85);
@@ -14,19 +14,19 @@ vec3 backdrop(float height)
     return mix(above, below, smoothstep(-0.1, 0.7, height));
 }
 
-// The part of the sun that reaches a point, 0 to 1. `side` is the normal on the side that the sun shines on; where the
-// answer is not `wanted` it is 1, and costs nothing.
+// The visible part of the sun at a point, 0 to 1. `side` is the normal on the lit side. If not `wanted`, returns 1 without
+// sampling.
 float sunlight(vec3 point, vec3 side, bool wanted)
 {
-    // Half the filter's width times the slope towards the sun: no surface shades itself.
+    // Offset by half the filter's width times the slope towards the sun, so that no surface shadows itself.
     vec3 lifted = point + side * (2.5 * frame.shadow_texel);
     vec3 at = (frame.shadow_from_world * vec4(lifted, 1.0)).xyz;
     vec2 border = abs(at.xy - 0.5);
     bool inside = wanted && max(border.x, border.y) < 0.497 && at.z < 1.0;
 
-    // 3 x 3 bilinear comparisons, the corners first: where they agree the rest is not asked, as most of a picture
-    // lies in the full sun or the full shade. The counts depend on data, so that a machine that runs masked lanes in
-    // lockstep (a CPU) leaves a loop at once where the whole group has no need of it.
+    // 3 x 3 bilinear comparisons, the corners first. If these agree the rest is skipped: most of a picture is fully lit or
+    // fully in shadow. Loop counts depend on data so that a CPU, which runs masked lanes in lockstep, leaves the loop when
+    // the whole group is done.
     int corners = inside ? 4 : 0;
     float lit = inside ? 0.0 : 4.0;
     vec2 spread = 1.6 / vec2(textureSize(shadow_map, 0));
@@ -48,7 +48,7 @@ vec3 ambient(vec3 normal)
     return mix(bounce, sky, 0.5 + 0.5 * normal.y);
 }
 
-// Ambient, diffuse and (Blinn-Phong) specular light. `through` is the part of the sun that thin cloth lets pass.
+// Ambient, diffuse and (Blinn-Phong) specular light. `through` is the part of the sun that passes through thin cloth.
 vec3 shade(vec3 albedo, vec3 point, vec3 normal, float gloss, float shininess, float through)
 {
     float towards = dot(normal, frame.to_light.xyz);
@@ -57,7 +57,7 @@ vec3 shade(vec3 albedo, vec3 point, vec3 normal, float gloss, float shininess, f
     float highlight = towards > 0.0 ? gloss * pow(max(dot(normal, halfway), 0.0), shininess) : 0.0;
     float edge = 1.0 - max(dot(normal, to_eye), 0.0);
     float diffuse = max(towards, 0.0) + through * max(-towards, 0.0);
-    float visible = sunlight(point, towards < 0.0 ? -normal : normal, diffuse > 0.0);  // else all that it scales is 0
+    float visible = sunlight(point, towards < 0.0 ? -normal : normal, diffuse > 0.0);  // otherwise it would only scale zeros
     vec3 light = ambient(normal) + fill * max(-dot(normal.xz, frame.to_light.xz), 0.0) + sun * (diffuse * visible);
     return albedo * light + sun * (highlight * visible) + sky * (0.25 * gloss * edge * edge * edge);
 }

@@ -1,5 +1,5 @@
-// Viridis, a map whose steps look equal (S. van der Walt and N. Smith, CC0), as the degree 6 polynomial fitted to it by
-// M. Zucker (CC0). Its values are sRGB; the power 2.2 takes them back to linear light.
+// Viridis, a perceptually uniform map (S. van der Walt and N. Smith, CC0), as a polynomial of degree 6 fitted by M. Zucker
+// (CC0). Its values are sRGB; the power 2.2 converts them to linear.
 vec3 viridis(float t)
 {
     t = clamp(t, 0.0, 1.0);

@@ -1,5 +1,5 @@
 #version 460
-// Nodes of moving pins, to where they are at the end of a step.
+// Moves attached nodes to where they are at the end of a step.
 #extension GL_GOOGLE_include_directive : require
 #include "colliders.glsl"
 
@@ -9,7 +9,7 @@ void main()
 {
     uint k = gl_GlobalInvocationID.x;
     if (k >= push.source_count) return;
-    // The places lie after the colliders, a row for each step; w is the node.
+    // The positions follow the colliders, a row for each step; w is the node.
     vec4 place = collider_rows[parameters.attached_first + push.index * push.source_count + k];
     uint node = uint(place.w);
     precise vec3 velocity = (place.xyz - position_of(node)) * parameters.rest_lengths_more.y;

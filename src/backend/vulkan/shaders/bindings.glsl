@@ -5,7 +5,7 @@ STORAGE(velocity_in, 2)  // 3 floats, m/s; w: mass, kg
 STORAGE(position_out, 3)  // as position_in
 STORAGE(velocity_out, 4)  // as velocity_in
 STORAGE(external_force, 5)  // 3 floats, N
-STORAGE(colliders, 6)  // rows of 4 floats: colliders (ColliderRow), places of attached nodes, goals of bodies
+STORAGE(colliders, 6)  // rows of 4 floats: colliders (ColliderRow), positions of attached nodes, targets of bodies
 STORAGE(springs, 7)  // nodes i < j
 STORAGE(spring_rest_class, 8)  // m, class, scale, bending in N/m
 STORAGE(neighbour_start, 9)  // CSR by node
@@ -16,7 +16,7 @@ STORAGE(node_triangles, 13)  // triangle
 STORAGE(spring_force, 14)  // 3 floats, N, on node i
 STORAGE(normal, 15)  // 3 floats
 STORAGE(strain, 16)  // 1 float
-STORAGE(measures, 17)  // 8 floats a value
+STORAGE(measures, 17)  // 8 floats per value
 UNIFORM_BLOCK(solver, 18)  // SolverBlock
 STORAGE(solver_arena, 19)  // floats: kernels/planes.kernel.glsl
 STORAGE(solver_scalars, 20)  // floats: the same
@@ -28,4 +28,4 @@ STORAGE(gradient, 25)  // 3 floats, m2
 STORAGE(direction, 26)  // 3 floats
 STORAGE(blocked, 27)  // 4 floats
 STORAGE(body_sums, 28)  // 4 floats
-STORAGE(slopes, 29)  // of position and of velocity, by turns
+STORAGE(slopes, 29)  // position and velocity, alternating

@@ -1,11 +1,11 @@
 #ifndef BODY_GLSL
 #define BODY_GLSL
-// Soft bodies: their topology, and what they keep for each node. As body_buffers.cpp lays it out.
+// Soft bodies: their topology and their data by node, as body_buffers.cpp lays them out.
 #include "cloth.glsl"
 
 layout(set = 0, binding = binding_body_topology, std430) readonly buffer BodyTopology { uint body_topology[]; };
 
-// Where things begin in body_topology, and in body_sums (in vec4).
+// Where lists begin in body_topology, and in body_sums (in vec4).
 const uint node_blocks_at = 0u, fan_blocks_at = 1u, parts_at = 2u, ring_start_at = 3u, ring_at = 4u, fan_start_at = 5u,
            fans_at = 6u, weights_at = 7u, loads_at = 8u, load_count_at = 9u, rate_sums_at = 10u, cubic_sums_at = 11u,
            records_at = 12u, volumes_at = 13u, pressure_at = 14u;

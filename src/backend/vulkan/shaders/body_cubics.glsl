@@ -1,6 +1,6 @@
 #ifndef BODY_CUBICS_GLSL
 #define BODY_CUBICS_GLSL
-// The cubic of the exact correction, summed up.
+// Sums of the cubic of the exact correction.
 #include "body_sums.glsl"
 
 MERGED_IN_GROUP(VolumeCubic, merged_cubic, cubic_values, cubic_lanes, volume_cubic_merge)

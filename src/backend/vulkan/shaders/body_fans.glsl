@@ -1,7 +1,7 @@
 #ifndef BODY_FANS_GLSL
 #define BODY_FANS_GLSL
-// The volume in fans of triangles, each triangle once, summed up by block. Who includes this says what POINT and CHANGE
-// of a node are.
+// The volume by fans of triangles, each triangle once, summed by block. The including file defines POINT and CHANGE of a
+// node.
 #include "body_cubics.glsl"
 
 void sum_fans()
@@ -24,7 +24,7 @@ void sum_fans()
         }
         precise vec3 arm = a - record_of(block.body).xyz;
         cubic = fan_cubic(fan, arm, da);
-#ifdef MEASURES  // without the sign of zeros
+#ifdef MEASURES  // avoids negative zeros
         cubic.first = cubic.second = cubic.third = 0.0f;
 #endif
     }

@@ -1,6 +1,6 @@
 #ifndef BODY_RATES_GLSL
 #define BODY_RATES_GLSL
-// Both sides of eq. (14), summed up.
+// Sums of both sides of eq. (14).
 #include "body_sums.glsl"
 
 MERGED_IN_GROUP(VolumeRate, merged_rate, rate_values, rate_lanes, volume_rate_merge)

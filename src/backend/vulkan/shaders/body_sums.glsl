@@ -1,8 +1,8 @@
 #ifndef BODY_SUMS_GLSL
 #define BODY_SUMS_GLSL
-// Sums of 256 values by one fixed tree: 16 lanes, each of every 16th value in their order; then the lanes in theirs. So
-// it is within a block, and then, by whoever needs the sum of a body, over its blocks, every 256th of which are added
-// first. Two barriers instead of eight, and on the CPU the lanes are those of a register.
+// Sums of 256 values in one fixed tree: 16 lanes, each the sum of every 16th value in order; then the lanes in order. This
+// holds within a block. Each pass that needs the sum of a body merges its blocks in the same tree, after adding every 256th.
+// It needs two barriers instead of eight, and on the CPU the lanes are those of a register.
 #include "body.glsl"
 
 #ifndef BODY_SUMS_ACCESS
@@ -13,7 +13,8 @@ layout(set = 0, binding = binding_body_sums, std430) BODY_SUMS_ACCESS buffer Bod
 // Of a body: xyz its centre, w 6 V.
 vec4 record_of(uint body) { return body_sums[body_topology[records_at] + body]; }
 
-// What the 256 invocations of a group hold, merged by the fixed tree: every 16th value in a lane, then the lanes in order.
+// Merges the values of the 256 invocations of a group in the fixed tree: every 16th value in a lane, then the lanes in
+// order.
 #define MERGED_IN_GROUP(Type, name, values, lanes, merge)                            \
     shared Type values[256], lanes[16];                                              \
     Type name(Type value)                                                            \

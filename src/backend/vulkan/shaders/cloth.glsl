@@ -1,4 +1,4 @@
-// What every compute shader sees of a cloth.
+// Data of a cloth for every compute shader.
 #ifndef CLOTH_GLSL
 #define CLOTH_GLSL
 #extension GL_GOOGLE_include_directive : require

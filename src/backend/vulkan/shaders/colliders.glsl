@@ -1,6 +1,6 @@
 #ifndef COLLIDERS_GLSL
 #define COLLIDERS_GLSL
-// Colliders as the host places them for each step.
+// Colliders, which the host places for each step.
 #include "cloth.glsl"
 
 layout(set = 0, binding = binding_colliders, std430) readonly buffer Colliders { vec4 collider_rows[]; };

@@ -1,5 +1,5 @@
 #version 460
-// The velocity that a hand gives the node it holds, before the step.
+// The velocity of the hand's node before the step.
 #extension GL_GOOGLE_include_directive : require
 #define VELOCITY_IN_ACCESS
 #include "cloth.glsl"

@@ -1,5 +1,5 @@
 #version 460
-// One step from the list of spring forces: each node gathers those of its springs, in the order of its neighbours.
+// One step from the list of spring forces: each node gathers the forces of its springs, in the order of its neighbours.
 #extension GL_GOOGLE_include_directive : require
 #include "list.glsl"
 #include "step.glsl"

@@ -1,7 +1,6 @@
 #ifndef MEASURE_GLSL
 #define MEASURE_GLSL
-// Blocks of 256 measures, merged by the fixed tree that every backend uses: halves are added to each other until one
-// value is left.
+// Merges blocks of 256 measures in the fixed tree of all backends, by adding halves until one value is left.
 #include "cloth.glsl"
 
 layout(set = 0, binding = binding_measures, std430) buffer Measures { vec4 measures[]; };  // two per value

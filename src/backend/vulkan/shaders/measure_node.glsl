@@ -1,6 +1,6 @@
 #ifndef MEASURE_NODE_GLSL
 #define MEASURE_NODE_GLSL
-// A node's own share of the measures: everything but its springs.
+// The measures of a node itself, without its springs.
 #include "colliders.glsl"
 #include "measure.glsl"
 

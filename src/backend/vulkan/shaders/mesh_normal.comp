@@ -1,5 +1,5 @@
 #version 460
-// Normals of a mesh: the area vectors of the triangles around a node.
+// Normals of a mesh: sums of the area vectors of the triangles around a node.
 #extension GL_GOOGLE_include_directive : require
 #include "triangles.glsl"
 

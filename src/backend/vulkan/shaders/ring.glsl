@@ -1,6 +1,6 @@
 #ifndef RING_GLSL
 #define RING_GLSL
-// A node's springs and its gradient, gathered in the order of its ring.
+// A node's spring forces and volume gradient, gathered in the order of its ring.
 #include "body.glsl"
 #include "colliders.glsl"
 
@@ -37,7 +37,7 @@ RingSums ring_sums(uint node)
     return sums;
 }
 
-// Of a body at the end of this step: x 6 V that is wanted, y a sixth of the pressure.
+// The target of a body at the end of this step: x 6 V, y a sixth of the pressure.
 vec2 goal_of(uint body)
 {
     return collider_rows[parameters.goals_first + push.index * parameters.goals_stride + body].xy;

@@ -1,5 +1,5 @@
 #version 460
-// One step of a soft body by its springs alone, gathered node by node; a work group has a block, and so one body.
+// One step of a soft body with springs alone, gathered node by node. A work group has one block, and thus one body.
 #extension GL_GOOGLE_include_directive : require
 #include "ring.glsl"
 #include "step.glsl"

@@ -9,7 +9,7 @@ struct SheetNeighbour
     uint spring_class, rest;
 };
 
-// As body/cloth_model.hpp: in the canonical order, backward neighbours (the first six) before forward ones.
+// As in body/cloth_model.hpp, in canonical order: the six backward neighbours before the forward ones.
 const SheetNeighbour sheet_neighbours[12] = SheetNeighbour[12](
     SheetNeighbour(-2, 0, bend, 4u), SheetNeighbour(-1, -1, shear, 2u), SheetNeighbour(-1, 0, structural, 1u),
     SheetNeighbour(-1, 1, shear, 2u), SheetNeighbour(0, -2, bend, 3u), SheetNeighbour(0, -1, structural, 0u),

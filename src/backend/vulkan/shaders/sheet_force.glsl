@@ -3,7 +3,7 @@
 // The force of a sheet's springs at a node, in the canonical order.
 #include "sheet.glsl"
 
-// Of a node near this one. Whoever includes this says where its state lies.
+// The state of a nearby node. The including file defines where it is stored.
 vec3 near_position(ivec2 place);
 vec3 near_velocity(ivec2 place);
 

@@ -1,20 +1,20 @@
 #version 460
-// Several steps of a sheet in one dispatch. A group takes a tile and what is around it into shared memory; every step is
-// made of two nodes less on each side, until the tile is left. What becomes of a node is what sheet_step makes of it.
+// Several steps of a sheet in one dispatch. A group loads a tile and its surroundings into shared memory. Every step covers
+// two nodes less on each side, until only the tile is left. Each node gets the same bits as in sheet_step.
 #extension GL_GOOGLE_include_directive : require
 #include "sheet_force.glsl"
 #include "step.glsl"
 
 layout(local_size_x_id = 0) in;
-layout(constant_id = 1) const uint steps = 2u;      // of a dispatch
-layout(constant_id = 2) const uint tile_rows = 8u;  // nodes that a group leaves; as of SheetTile (sheet_tile.hpp)
+layout(constant_id = 1) const uint steps = 2u;      // per dispatch
+layout(constant_id = 2) const uint tile_rows = 8u;  // rows of a group's tile; see SheetTile (sheet_tile.hpp)
 layout(constant_id = 3) const uint tile_columns = 8u;
 
 const uint reach = 2u;  // of a spring, in nodes
 const uint halo = reach * steps;
 const uint region_rows = tile_rows + 2u * halo, region_columns = tile_columns + 2u * halo;
 const uint region_size = region_rows * region_columns;
-const uint most_nodes =  // of an invocation in a step
+const uint most_nodes =  // per invocation in a step
     ((region_rows - 2u * reach) * (region_columns - 2u * reach) + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
 
 shared float region[7u * region_size];  // planes of position, velocity and inverse mass
@@ -49,7 +49,7 @@ void load_region()
     }
 }
 
-// The m-th node of this invocation in a step that leaves out `margin` nodes on each side; false if there is none.
+// The m-th node of this invocation in a step with a margin of `margin` nodes on each side; false if there is none.
 bool find_place(uint m, uint margin, out ivec2 place)
 {
     uint columns = region_columns - 2u * margin, k = m * gl_WorkGroupSize.x + gl_LocalInvocationID.x;

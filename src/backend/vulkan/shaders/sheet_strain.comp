@@ -1,5 +1,5 @@
 #version 460
-// The largest stretch of the structural and shear springs at each node of a sheet, for colouring.
+// The largest strain of the structural and shear springs at each node of a sheet, for colouring.
 #extension GL_GOOGLE_include_directive : require
 #include "sheet.glsl"
 

@@ -14,7 +14,7 @@ void main()
     bool above = place.x > 0, below = place.x + 1 < int(parameters.rows);
     bool left = place.y > 0, right = place.y + 1 < int(columns);
     precise vec3 force = vec3(0.0f);
-    if (above && left) force = force + wind_on(node - columns, node - 1u, node);  // the lower one of that quad
+    if (above && left) force = force + wind_on(node - columns, node - 1u, node);  // the lower triangle of that quad
     if (above && right) {
         force = force + wind_on(node - columns, node, node - columns + 1u);
         force = force + wind_on(node - columns + 1u, node, node + 1u);

@@ -1,11 +1,11 @@
 #ifndef SOLVER_GLSL
 #define SOLVER_GLSL
-// What the text of src/kernels calls, as GLSL: the twin of SolverKernels (backend/host/solver_kernels.hpp). All numbers
-// of a cloth's solver lie in one buffer, the arena; the levels of its hierarchy say where.
-#define POSITION_OUT_ACCESS  // a pinned node is found where it is going
+// The functions that src/kernels calls, as GLSL; SolverKernels (backend/host/solver_kernels.hpp) defines them in C++. All
+// numbers of a cloth's solver are in one buffer, the arena; the levels of its hierarchy have the offsets.
+#define POSITION_OUT_ACCESS  // the next state has the positions to which pins move
 #include "colliders.glsl"
 #define KERNEL
-#define UNROLL  // drivers know when it pays; when told to, llvmpipe compiles for seconds
+#define UNROLL  // empty: drivers decide themselves, and forced unrolling takes llvmpipe seconds to compile
 #include "kernels/planes.kernel.glsl"
 
 layout(set = 0, binding = binding_solver, std140) uniform SolverOfCloth { SolverBlock solver; };
@@ -19,7 +19,7 @@ layout(set = 0, binding = binding_multiplier, std430) writeonly buffer Multiplie
 LevelNumbers level, finer;
 real sums[3] = real[3](0.0f, 0.0f, 0.0f);
 
-// The same for all invocations of a dispatch.
+// Uniform over all invocations of a dispatch.
 bool is_skipped() { return push.guard != uint(scalar_count) && scalars[push.guard] != 0.0f; }
 void find_levels()
 {
@@ -46,7 +46,8 @@ Symmetric load6(int plane, int o)
     return Symmetric(load(plane, o), load(plane + 1, o), load(plane + 2, o), load(plane + 3, o), load(plane + 4, o),
                      load(plane + 5, o));
 }
-Symmetric load6_anywhere(int plane, int o) { return load6(plane, o); }  // on the host a pack must not cross groups
+Symmetric load6_anywhere(int plane, int o) { return load6(plane, o); }  // same here; on the host a pack must not cross
+                                                                        // groups
 void store6(int plane, int o, Symmetric a)
 {
     store(plane, o, a.xx);
@@ -155,31 +156,31 @@ real acad_reach() { return solver.curve_reach.w; }
 int collider_count() { return int(parameters.collider_count); }
 Collider collider(int k) { return collider_at(push.index, uint(k)); }
 
-// Rows and columns as NodeLayout (body/node_layout.hpp).
+// Rows and columns as in NodeLayout (body/node_layout.hpp).
 int level_offset(int row, int column) { return (row + border_rows) * level.stride + row_pad + column; }
 int finer_offset(int row, int column) { return (row + border_rows) * finer.stride + row_pad + column; }
 int node_at(int o) { return ((o - row_pad) / level.stride - border_rows) * level.columns + (o - row_pad) % level.stride; }
 vec3 node_position(int o) { return position_in[node_at(o)].xyz; }
 vec3 node_velocity(int o) { return velocity_in[node_at(o)].xyz; }
-// Beyond the border, where no spring reaches, any node will do.
+// Beyond the border no spring reaches, so any node is valid.
 vec3 node_next_position(int o) { return position_out[min(uint(node_at(o)), parameters.node_count - 1u)].xyz; }
 vec3 node_next_velocity(int o) { return velocity_out[node_at(o)].xyz; }
 void set_multiplier(int o, real a) { multiplier[node_at(o)] = a; }
 vec3 node_force(int o) { return parameters.has_air != 0u ? external_force[node_at(o)].xyz : vec3(0.0f); }
 real node_inverse_mass(int o) { return position_in[node_at(o)].w; }
 bool hand_is_near(int o) { return uint(node_at(o)) == parameters.grabbed_node && hand_hold() > 0.0f; }
-vec3 where_held(int o, vec3 held, vec3 otherwise) { return held; }  // there is but one lane, and it is near
+vec3 where_held(int o, vec3 held, vec3 otherwise) { return held; }  // the one lane is known to be near
 real node_mass(int o) { return velocity_in[node_at(o)].w; }
 void node_end(int o, vec3 x, vec3 v)
 {
-    position_out[node_at(o)].xyz = x;  // beside them are the masses, in both copies
+    position_out[node_at(o)].xyz = x;  // leaves the mass in w, which is in both copies
     velocity_out[node_at(o)].xyz = v;
 }
 
-// No invocation works on padding here, nor on a node twice.
+// Invocations never process padding, nor a node twice.
 mask inside_level() { return true; }
 
-// What lies by edge on a mesh, and by spring in the paper's solver.
+// Data by edge of a mesh, and by spring in the paper's solver.
 int topology(int k) { return topology_entries[k]; }
 real topology_weight(int k) { return intBitsToFloat(topology(k)); }
 real number(int k) { return arena[k]; }
@@ -217,7 +218,7 @@ void edge_store6(int plane, int e, Symmetric a)
     arena[p + 5] = a.zz;
 }
 
-// The dense operator of the last level.
+// The dense operator of the coarsest level.
 int bottom_nodes() { return level.rows * level.columns; }
 real bottom_get(int k) { return arena[solver.bottom_base + k]; }
 void bottom_set(int k, real a) { arena[solver.bottom_base + k] = a; }
@@ -229,7 +230,7 @@ int bottom_at(int plane, int k)
 real bottom_vector(int plane, int k) { return arena[bottom_at(plane, k)]; }
 void bottom_set_vector(int plane, int k, real a) { arena[bottom_at(plane, k)] = a; }
 
-// Of single passes alone (solver_single.glsl).
+// Only for single passes (solver_single.glsl).
 real total(int slot);
 void set_scalar(int k, real a);
 

@@ -1,6 +1,6 @@
 #ifndef SOLVER_BOTTOM_GLSL
 #define SOLVER_BOTTOM_GLSL
-// The dense operator of the last level, which one invocation works on.
+// The dense operator of the coarsest level, which one invocation processes.
 #include "solver.glsl"
 
 layout(local_size_x = 1) in;

@@ -1,12 +1,12 @@
 #ifndef SOLVER_NODES_GLSL
 #define SOLVER_NODES_GLSL
-// Passes over the nodes of a level: a group takes 64 columns of a row, and adds up what they leave in `sums`.
+// Passes over the nodes of a level: a group processes 64 columns of a row and adds up their `sums`.
 #include "solver.glsl"
 
 layout(local_size_x = sum_columns) in;
 shared real group_sums[gl_WorkGroupSize.x];
 
-// Nobody reads sums over coarser levels.
+// Sums over coarser levels are not used.
 void leave_sums()
 {
     if (push.level != 0u) return;
@@ -22,14 +22,14 @@ void leave_sums()
     }
 }
 
-// Of ACAD's solve: the flag of a row or group (kernels/acad.kernel.glsl).
+// ACAD's solve: the flag of a row or group (kernels/acad.kernel.glsl).
 bool is_live(int flag) { return !is_acad() || number(flag) > 0.0f; }
 bool is_live_node(LevelNumbers of, int row, int column)
 {
     return is_live(of.live + (of.rows > 1 ? row : column / sum_columns));
 }
 
-// Passes over units (PassUnit of solve/pass.hpp), of which a shader has one.
+// Loops over units (PassUnit of solve/pass.hpp); each shader uses one.
 #define OVER_NODES(call, condition)                                             \
     void main()                                                                 \
     {                                                                           \
@@ -62,7 +62,7 @@ bool is_live_node(LevelNumbers of, int row, int column)
 #define OVER_flag(kernel) OVER_NUMBERS(kernel, flag_count(), true)
 
 int groups_of(int count, int size) { return (count + size - 1) / size; }
-// As SolverLevel::node_units, and groups of edges.
+// As SolverLevel::node_units, plus groups of edges.
 int flag_count()
 {
     int node_units = level.rows > 1 ? level.rows : groups_of(level.columns, sum_columns);

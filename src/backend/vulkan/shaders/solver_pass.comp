@@ -1,5 +1,5 @@
 #version 460
-// Any pass of a solver. The build compiles this once for each such row of solve/passes.def (cmake/PliantShaders.cmake),
+// Any pass of a solver. The build compiles this file once per solver row of solve/passes.def (cmake/PliantShaders.cmake),
 // with the row's columns as macros: PASS, the name; OVER, OVER_ and the unit; UNIT_ and the unit; TEXT_ and the text.
 #extension GL_GOOGLE_include_directive : require
 #if defined(UNIT_single)

@@ -1,7 +1,7 @@
 #ifndef SOLVER_SINGLE_GLSL
 #define SOLVER_SINGLE_GLSL
-// Passes of one invocation. Those of serial.kernel.glsl are run by a whole group, which adds up the parts of a sum
-// together; all of it runs the same text, and the first invocation alone writes.
+// Passes of one invocation. A whole group runs those of serial.kernel.glsl and adds up the parts of a sum together; all
+// invocations run the same text, and only the first one writes.
 #include "solver.glsl"
 
 layout(local_size_x = sum_lanes) in;

@@ -1,5 +1,5 @@
 #version 460
-// Edge-centric: the force of each spring on its first node, once.
+// Edge-centric: computes the force of each spring on its first node, once.
 #extension GL_GOOGLE_include_directive : require
 #include "list.glsl"
 

@@ -1,6 +1,6 @@
 #version 460
-// One stage of explicit Euler or Runge-Kutta. From the second stage on its state is what the one before has left as the
-// next one; the last stage ends the step.
+// One stage of explicit Euler or Runge-Kutta. From the second stage on it reads the next state, which the previous stage
+// wrote; the last stage ends the step.
 #extension GL_GOOGLE_include_directive : require
 #define VELOCITY_OUT_ACCESS
 #include "list.glsl"
@@ -9,7 +9,7 @@
 layout(local_size_x = linear_group) in;
 layout(set = 0, binding = binding_external_force, std430) readonly buffer ExternalForce { vec4 external_force[]; };
 layout(set = 0, binding = binding_spring_force, std430) readonly buffer SpringForce { vec4 spring_forces[]; };
-layout(set = 0, binding = binding_slopes, std430) buffer Slopes { vec4 slopes[]; };  // of position, of velocity, by turns
+layout(set = 0, binding = binding_slopes, std430) buffer Slopes { vec4 slopes[]; };  // position and velocity, alternating
 
 void main()
 {

@@ -1,11 +1,11 @@
 #ifndef STEP_GLSL
 #define STEP_GLSL
-// The end of every step: integrate, then let the colliders speak.
+// The end of every step: integration, then contact.
 #include "colliders.glsl"
 
 layout(set = 0, binding = binding_external_force, std430) readonly buffer ExternalForce { vec4 external_force[]; };
 
-// A node after a step of the frame; `total` is all of the force.
+// A node after a step of the frame; `total` is the total force.
 Motion stepped(Motion now, vec3 total, float inverse_mass, uint step)
 {
     float dt = parameters.gravity_dt.w;

@@ -1,5 +1,5 @@
 #version 460
-// The exact correction: every work group finds the root of the cubic for itself.
+// The exact correction: every work group computes the root of the cubic itself.
 #extension GL_GOOGLE_include_directive : require
 #define POSITION_OUT_ACCESS
 #define VELOCITY_OUT_ACCESS

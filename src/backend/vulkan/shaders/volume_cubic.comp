@@ -1,5 +1,5 @@
 #version 460
-// What contact and pins have made of the volume, and how it changes along the directions.
+// The volume after contact and pins, and its change along the directions.
 #extension GL_GOOGLE_include_directive : require
 #define POSITION_OUT_ACCESS readonly
 #define POINT(node) position_out[node].xyz

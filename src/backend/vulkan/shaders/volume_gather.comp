@@ -1,5 +1,5 @@
 #version 460
-// Springs, gradient, the velocity that forces alone lead to, and both sides of eq. (14), summed up by block.
+// Springs, gradient, the velocity by forces alone, and both sides of eq. (14), summed by block.
 #extension GL_GOOGLE_include_directive : require
 #include "body_rates.glsl"
 #include "ring.glsl"

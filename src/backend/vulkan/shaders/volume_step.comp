@@ -1,5 +1,5 @@
 #version 460
-// The multiplier of eq. (14), which every work group finds for itself; then integration and contact.
+// The multiplier of eq. (14), which every work group computes itself; then integration and contact.
 #extension GL_GOOGLE_include_directive : require
 #define VELOCITY_OUT_ACCESS
 #define BODY_SUMS_ACCESS readonly

@@ -1,6 +1,6 @@
 #ifndef WIND_GLSL
 #define WIND_GLSL
-// A triangle's wind on one of its corners.
+// Wind force of a triangle on one of its corners.
 #include "cloth.glsl"
 
 layout(set = 0, binding = binding_external_force, std430) writeonly buffer ExternalForce { vec4 external_force[]; };
