@@ -42,8 +42,8 @@ struct SimulationOptions {
         {};  ///< cpu: "sse2", "avx2", "avx512"; empty chooses the widest of this machine
     /// cpu and vulkan: explicit steps use the machine's own inverse square root and fused multiply-add. The
     /// bits then depend on the machine, its driver and the number of threads; accuracy does not
-    /// (docs/performance.md). The constraint solver is not affected. Throws Error(bad_usage) on a CPU without
-    /// AVX2.
+    /// (docs/notes/explicit_steps.md). The constraint solver is not affected. Throws Error(bad_usage) on a
+    /// CPU without AVX2.
     bool fast_math = false;
     JobSystem* job_system = nullptr;  ///< cpu: not owned, must outlive the simulation
     bool validation = false;          ///< Vulkan: enables the validation layer; `report()` counts its

@@ -1,5 +1,5 @@
 // Pliant's own threads: oneTBB behind the JobSystem interface. For parallel regions of a few microseconds
-// OpenMP took 4 to 37 times as long (docs/performance.md).
+// OpenMP took 4 to 37 times as long (docs/notes/threads.md).
 #pragma once
 
 #include <memory>

@@ -1,6 +1,6 @@
 // Threads that stay together for a frame. A frame of the constraint solver has a thousand regions of a few
-// microseconds; handing each to a pool costs as much as the work (docs/performance.md). So the pool is asked
-// once: the first thread that arrives leads, the others spin, and a region is one store and one load.
+// microseconds; handing each to a pool costs as much as the work (docs/notes/threads.md). So the pool is
+// asked once: the first thread that arrives leads, the others spin, and a region is one store and one load.
 #pragma once
 
 #include <array>
