@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The documents: every relative link leads to a file and, where it names one, to a heading of it, as GitHub makes anchors;
-and every scene of the manual passes `pliant check`. Ends with 'N passed, N failed'.
+every scene of the manual passes `pliant check`; and code of a page with a program
+beside it is part of that program. Ends with 'N passed, N failed'.
 
     docs_test.py TOOL [ROOT]      TOOL: the program pliant. ROOT: another copy of the project
 """
@@ -22,7 +23,13 @@ HEADING = re.compile(r"^ {0,3}#{1,6}\s+(.*?)\s*#*\s*$")
 # [text](target) and ![text](target), the text may itself have a picture in brackets; and [name]: target.
 LINK = re.compile(r"\]\(\s*<?([^()\s>]+(?:\([^()\s]*\)[^()\s>]*)*)>?(?:\s+\"[^\"]*\")?\s*\)")
 REFERENCE = re.compile(r"^ {0,3}\[[^\]]+\]:\s+<?(\S+?)>?\s*$")
+# Code of a page that has a program beside it, in a folder of its name, must be part of that program.
+CODE = re.compile(r"^```(?:cpp|cmake)\n(.*?)^```", re.S | re.M)
 SCENE = re.compile(r"^```json\n(.*?)^```", re.S | re.M)
+
+
+def without_indent(text):
+    return re.sub(r"^[ \t]+", "", text, flags=re.M)
 
 
 def prose(path):
@@ -105,6 +112,17 @@ def main():
             for number, text in enumerate(SCENE.findall(page.read_text()), 1):
                 scenes += 1
                 count(f"{page.relative_to(ROOT)}: scene {number}", fault_of_scene(text, folder))
+        for page in sorted((ROOT / "docs/manual").rglob("*.md")):
+            program = page.with_suffix("")
+            if not program.is_dir():
+                continue
+            text = "".join(without_indent(file.read_text()) for file in sorted(program.iterdir()))
+            blocks = CODE.findall(page.read_text())
+            for number, code in enumerate(blocks, 1):
+                count(f"{page.relative_to(ROOT)}: code {number}",
+                      None if without_indent(code) in text else f"it is not in {program.relative_to(ROOT)}")
+            if not blocks:
+                count(page.relative_to(ROOT), "it shows nothing of its program")
     if passed == 0 or scenes == 0:
         count("documents", "no link or no scene was found")
     print(f"{passed} passed, {failed} failed")

@@ -155,11 +155,12 @@ Vec3d placed_corner(const ShapePlacement& placement, const ShapeVertex& corner)
     const double x = end * unit.x * double{placement.size[0]}, z = end * unit.z * double{placement.size[2]};
     const double y =
         end * unit.y * double{placement.size[1]} + double{corner.half} * double{placement.size[3]};
-    const auto& [ax, ay, az] = placement.axes;
+    const auto& axes = placement.axes;
     const auto part = [&](std::size_t k) {
-        return double{ax[k]} * x + double{ay[k]} * y + double{az[k]} * z;
+        return double{axes[0][k]} * x + double{axes[1][k]} * y + double{axes[2][k]} * z;
     };
-    return Vec3d{part(0), part(1), part(2)} + Vec3d{double{ax[3]}, double{ay[3]}, double{az[3]}};
+    return Vec3d{part(0), part(1), part(2)} +
+           Vec3d{double{axes[0][3]}, double{axes[1][3]}, double{axes[2][3]}};
 }
 
 ShapeMeshes::Range mesh_of(const PlacedCollider& collider, const ShapeMeshes& meshes)

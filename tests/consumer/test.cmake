@@ -34,6 +34,16 @@ step("configure" ${CMAKE_COMMAND} -S ${SOURCE} -B ${work}/build -DCMAKE_PREFIX_P
      -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=${BUILD_TYPE} ${flags}
      -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF)
 step("build" ${CMAKE_COMMAND} --build ${work}/build)
+# The program of the manual, which leaves files where it runs.
+set(program ${SOURCE}/../../docs/manual/own_program)
+step("configure the manual's program" ${CMAKE_COMMAND} -S ${program} -B ${work}/own_program -DCMAKE_PREFIX_PATH=${prefix}
+     -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=${BUILD_TYPE} ${flags}
+     -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF)
+step("build the manual's program" ${CMAKE_COMMAND} --build ${work}/own_program)
+step("run the manual's program" ${CMAKE_COMMAND} -E chdir ${work}/own_program ${work}/own_program/cape)
+if(NOT EXISTS ${work}/own_program/cape.ply)
+    message(FATAL_ERROR "the manual's program left no cape.ply")
+endif()
 step("run the consumer" ${work}/build/consumer)
 step("run what links the library alone" ${work}/build/alone)
 
