@@ -252,8 +252,9 @@ private:
             std::fprintf(stderr, "warning: %s\n", warning.c_str());
         const SolverReport& solver = simulation_.report().solver;
         if (solver.frames_cut > 0 && !options_.quiet)
-            std::printf("%llu frames were repeated in shorter steps: %llu additional steps\n",
+            std::printf("%llu %s repeated in shorter steps: %llu additional steps\n",
                         static_cast<unsigned long long>(solver.frames_cut),
+                        solver.frames_cut == 1 ? "frame was" : "frames were",
                         static_cast<unsigned long long>(solver.steps_added));
     }
 

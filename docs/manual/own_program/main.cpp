@@ -80,8 +80,8 @@ int run()
         const std::span<const pliant::Vec3> normals = simulation.normals(cape.index());
         if (frame == 119)
             std::printf("%zu vertices, %zu normals, the first at (%.2f, %.2f, %.2f) m\n", positions.size(),
-                        normals.size(), static_cast<double>(positions[0].x), static_cast<double>(positions[0].y),
-                        static_cast<double>(positions[0].z));
+                        normals.size(), static_cast<double>(positions[0].x),
+                        static_cast<double>(positions[0].y), static_cast<double>(positions[0].z));
     }
     const pliant::Report& report = simulation.report();
     std::printf("stretched by %.2f %% at most, %s\n", 100 * report.measures.max_stretch,
