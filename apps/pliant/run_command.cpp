@@ -14,6 +14,7 @@
 #include "record/run_record.hpp"
 #include "render/picture_recorder.hpp"
 #include "stopwatch.hpp"
+#include "user_folders.hpp"
 
 namespace pliant::tool {
 namespace {

@@ -12,6 +12,7 @@
 #include <cstring>
 #include <limits>
 
+#include "files/formatted.hpp"
 #include "mesh_file/ply_header.hpp"
 #include "mesh_file/text_scan.hpp"
 
