@@ -81,12 +81,12 @@ std::set<std::size_t> expected_rows(const ClothModel& model, const std::vector<V
         const Vec3 a = positions[i], b = positions[j];
         const double length = std::hypot(double{b.x} - a.x, double{b.y} - a.y, double{b.z} - a.z);
         if (length < (1 + marked_at) * rest) return;
-        if (model.shape.is_sheet())
+        if (model.plan.on_grid)
             for (std::size_t row = i / columns; row <= i / columns + 2; ++row) expected.insert(row);
         else
             expected.insert({i / sum_columns, j / sum_columns});
     };
-    if (model.shape.is_sheet())
+    if (model.plan.on_grid)
         for_each_sheet_spring(
             *model.shape.sheet, [&](std::uint32_t i, std::uint32_t j, const SheetNeighbour& n) {
                 look(i, j, model.shape.sheet->rest_lengths[static_cast<std::size_t>(n.rest)]);
@@ -119,10 +119,7 @@ protected:
           idle_model(idle_scene.cloth(0), idle_scene)
     {
     }
-    std::size_t row_of(std::size_t node) const
-    {
-        return node / (model.shape.is_sheet() ? columns : sum_columns);
-    }
+    std::size_t row_of(std::size_t node) const { return node / (model.plan.on_grid ? columns : sum_columns); }
 
     Scene scene, idle_scene;
     ClothModel model, idle_model;  ///< the second never has a constraint
@@ -132,7 +129,7 @@ TEST_P(AcadRows, AreThoseThatAMarkedSpringReaches)
 {
     const std::vector<Vec3> start = pulled_apart(model, 20);
     const std::set<std::size_t> expected = expected_rows(model, start);
-    ASSERT_LT(expected.size(), model.shape.is_sheet() ? 4U : 6U);  // of 64 rows, of 9 groups
+    ASSERT_LT(expected.size(), model.plan.on_grid ? 4U : 6U);  // of 64 rows, of 9 groups
     for (const Backend backend : test::backends()) {
         const auto runner = test::make_runner(backend, model);
         EXPECT_EQ(step_from(*runner, model, start).active, columns) << name_of(backend);
@@ -221,7 +218,7 @@ TEST_P(AcadRows, AreThoseAtASpringThatAPinHolds)
     const ClothModel held(scene.cloth(0), scene);
     const std::vector<Vec3> start = pulled_apart(held, 0);
     std::set<std::size_t> expected;
-    if (held.shape.is_sheet())
+    if (held.plan.on_grid)
         expected = expected_rows(held, start);
     else
         for (std::uint32_t vertex = columns; vertex < 2 * columns; ++vertex)

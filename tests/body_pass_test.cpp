@@ -121,7 +121,7 @@ Results results_of(PassRunner& runner, const ClothModel& model, const Scene& sce
     Results results;
     std::vector<Resource> computed = {Resource::position, Resource::velocity, Resource::cubic_sums,
                                       Resource::volumes, Resource::measures};
-    if (model.body->constrained)
+    if (model.plan.keeps_volume())
         computed.insert(computed.end(), {Resource::gradient, Resource::direction, Resource::blocked,
                                          Resource::rate_sums, Resource::bodies});
     if (model.has_external_force()) computed.push_back(Resource::external_force);

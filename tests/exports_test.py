@@ -42,7 +42,7 @@ for library in libraries:
     shown = 0
     for line in text.splitlines():
         kind, name = line.split(maxsplit=2)[1:]
-        if kind in "Ww" or kind == "V" or kind == "u":  # weak: inline functions and templates of the standard library
+        if kind in "WwVu":  # weak: inline functions and templates of the standard library
             if not re.match(r"(typeinfo|vtable)", name):
                 continue
         name = re.sub(r"^(typeinfo name for|typeinfo for|vtable for|non-virtual thunk to) ", "", name)
@@ -51,7 +51,7 @@ for library in libraries:
             continue  # a template over a type that is shown
         inside = re.match(r"(?:pliant::)((?:\w+::)*)(~?\w+)", name)
         if not inside:
-            expect(not name.startswith("pliant") and not re.search(r"pliant", name), f"{Path(library).name} shows {name}")
+            expect(False, f"{Path(library).name} shows {name}")
             continue
         path = inside[1].rstrip(":").split("::") + [inside[2]]
         good = any(part in classes for part in path) or path[-1] in functions

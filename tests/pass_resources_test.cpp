@@ -169,12 +169,12 @@ std::vector<Resource> resources_of_arena(const ClothModel& model)
         fill(at(rows_matrix), at(at(rows_matrix_start) + rows), Resource::blocks);
         return arena;
     }
-    const int first_of_mesh = model.shape.is_sheet() ? bent_sheet_planes : node_planes;
+    const int first_of_mesh = model.plan.on_grid ? bent_sheet_planes : node_planes;
     for (std::size_t l = 0; l < hierarchy.level_count(); ++l) {
         const SolverLevel& level = hierarchy.levels[l];
         const int planes = l > 0                                 ? level_planes
                            : hierarchy.history_plane > 0         ? hierarchy.history_plane + history_planes
-                           : !model.shape.is_sheet()             ? node_planes
+                           : !model.plan.on_grid                 ? node_planes
                            : model.limits.bends_by_constraints() ? bent_sheet_planes
                                                                  : sheet_planes;
         for (int plane = 0; plane < planes; ++plane) {
@@ -182,7 +182,7 @@ std::vector<Resource> resources_of_arena(const ClothModel& model)
             const bool vectors =
                 plane < plane_mass || plane == plane_active || (plane >= plane_step && plane < plane_slide);
             const bool blocks = (plane >= plane_block && plane < level_planes) ||
-                                (model.shape.is_sheet() && plane >= plane_bend && plane < first_of_mesh);
+                                (model.plan.on_grid && plane >= plane_bend && plane < first_of_mesh);
             // Of a mesh a plane begins with its one row: planes overlap in the border that they do not have.
             const std::int32_t first = level.base + plane * level.size + level.first_of_plane();
             fill(first, level.size,

@@ -13,8 +13,6 @@
 #include "pliant/scene.hpp"
 #include "render/renderer.hpp"
 #include "render/scene_drawing.hpp"
-#include "render/shapes.hpp"
-#include "solve/step_constants.hpp"
 #include "test_cloths.hpp"
 #include "test_errors.hpp"
 
@@ -529,21 +527,6 @@ TEST_F(Picture, shows_colliders_where_they_are_at_the_time)
         TaperedCapsule{
             .start = {-0.4, 0.4, 0}, .end = {0.4, 0.6, 0}, .start_radius = 0.05, .end_radius = 0.1},
         {0.3, 0.6, 0.08});
-}
-
-TEST(ShapeMeshes, CornersOfATaperedCapsuleLieOnIt)
-{
-    const ShapeMeshes meshes = make_shape_meshes();
-    const PlacedCollider placed = placed_at(
-        TaperedCapsule{.start = {0, 0, 0}, .end = {0.3, 0.4, 0.5}, .start_radius = 0.4, .end_radius = 0.15},
-        0);
-    const ShapePlacement placement = placement_of(placed, 0);
-    const auto collider = make_collider<double>(placed);
-    const auto range = mesh_of(placed, meshes);
-    for (std::uint32_t i = 0; i < range.index_count; ++i) {
-        const Vec3d p = placed_corner(placement, meshes.vertices[meshes.indices[range.first_index + i]]);
-        EXPECT_NEAR(Laws<double>::collider_gap(collider, {p.x, p.y, p.z}).w, 0, 1e-6);  // rounding of floats
-    }
 }
 
 TEST_F(Picture, covers_a_sphere_that_a_coarse_cloth_lies_on)

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "body/stepping_plan.hpp"
 #include "commands.hpp"
 #include "files/numbered_name.hpp"
 #include "pliant/error.hpp"
@@ -26,9 +27,7 @@ int check_scene(const std::string& name, const std::vector<std::string>& overrid
     std::printf("  %.4g s in frames of %.4g ms, %u steps of %.4g ms each\n", scene.time.duration,
                 1000 / scene.time.frame_rate, simulation.steps_per_frame(), 1000 * simulation.step_length());
     // Implicit steps are stable at any length.
-    const bool implicit =
-        scene.method == Method::constraint || scene.integrator == Integrator::implicit_euler;
-    if (!implicit && std::isfinite(simulation.stable_step()))
+    if (stepped_method(scene) != Method::constraint && std::isfinite(simulation.stable_step()))
         std::printf("  the largest step that is certainly stable is %.4g ms\n",
                     1000 * simulation.stable_step());
     const std::vector<std::string> warnings = simulation.warnings();

@@ -2,11 +2,11 @@
 #pragma once
 
 #if defined(__GNUC__)
-/// Of a declaration that users link to.
+/// Marks a declaration that users link to.
 #define PLIANT_API __attribute__((visibility("default")))
 #else
 #define PLIANT_API
 #endif
-/// Of one inside that another of the project's libraries links to. It is no part of the interface, and
-/// changes without notice.
+/// Marks an internal declaration that another of the project's libraries links to. It may change without
+/// notice.
 #define PLIANT_INSIDE PLIANT_API

@@ -207,14 +207,13 @@ void add_bending(std::vector<Spring>& springs, std::span<const Triangle> triangl
         const BentTriangle triangle(triangles[t], t, sides, positions);
         triangle.add(bending_stiffness, weights);
     }
-    std::sort(weights.begin(), weights.end(),
-              [](const PairWeight& a, const PairWeight& b) { return a.i != b.i ? a.i < b.i : a.j < b.j; });
+    std::sort(weights.begin(), weights.end(), by_ends);
     // Both lists have the same order and are merged. A pair without a spring becomes a spring with a bending
     // weight alone.
     const std::size_t known = springs.size();
     std::size_t s = 0;
     for (const PairWeight& pair : weights) {
-        while (s < known && (springs[s].i != pair.i ? springs[s].i < pair.i : springs[s].j < pair.j)) ++s;
+        while (s < known && by_ends(springs[s], pair)) ++s;
         if (s < known && springs[s].i == pair.i && springs[s].j == pair.j) {
             springs[s].bending += pair.weight;
         } else if (springs.size() > known && springs.back().i == pair.i && springs.back().j == pair.j) {
@@ -225,7 +224,7 @@ void add_bending(std::vector<Spring>& springs, std::span<const Triangle> triangl
         }
     }
     std::inplace_merge(springs.begin(), springs.begin() + static_cast<std::ptrdiff_t>(known), springs.end(),
-                       [](const Spring& a, const Spring& b) { return a.i != b.i ? a.i < b.i : a.j < b.j; });
+                       by_ends);
 }
 
 void halve_border(std::vector<Spring>& springs, const SheetShape& sheet)

@@ -54,7 +54,6 @@ struct BodyModel {
     std::vector<BodyPart> parts;
     std::vector<float> weights;  ///< by node; empty if all are 1
     std::vector<LoadedNode> loads;
-    bool constrained = false;  ///< has the volume constraint
     bool has_pressure = false;
 
     double weight_of(std::size_t node) const { return weights.empty() ? 1.0 : double{weights[node]}; }

@@ -64,8 +64,7 @@ void ClothShape::build_body(const Cloth& cloth, const SurfaceMesh& mesh)
     require_closed(mesh, mesh.file.empty() ? cloth.name : mesh.file.string());
 
     const std::vector<std::uint32_t> order = node_order(mesh);
-    node_of_vertex.resize(count);
-    for (std::uint32_t node = 0; node < count; ++node) node_of_vertex[order[node]] = node;
+    node_of_vertex = inverse_of(order);
     for (const Triangle& t : mesh.triangles)
         triangles_.push_back({node_of_vertex[t[0]], node_of_vertex[t[1]], node_of_vertex[t[2]]});
 
@@ -136,8 +135,7 @@ void ClothShape::become_mesh()
 
 void ClothShape::renumber(std::span<const std::uint32_t> order)
 {
-    node_of_vertex.resize(order.size());
-    for (std::uint32_t node = 0; node < order.size(); ++node) node_of_vertex[order[node]] = node;
+    node_of_vertex = inverse_of(order);
     reorder(positions, order);
     reorder(velocities, order);
     for (Triangle& triangle : triangles_)

@@ -38,7 +38,7 @@ public:
     /// m: the longest side of the box around the nodes.
     double longest_side() const;
 
-    /// The grid of a sheet says nothing about its springs any more: it is a mesh from here on.
+    /// Drops the grid of a sheet, which is a mesh from then on, with lists of triangles.
     void become_mesh();
     /// order[k] is the vertex that becomes node k.
     void renumber(std::span<const std::uint32_t> order);

@@ -226,8 +226,7 @@ CoarseMesh coarser(const MeshGraph& fine)
     coarse.children = rows_of<WeightedSource>(aggregates.count, all, row_of, entry_of);
 
     std::vector<Share> pairs = shares_of(fine, coarse.parents);
-    std::stable_sort(pairs.begin(), pairs.end(),
-                     [](const Share& a, const Share& b) { return a.i != b.i ? a.i < b.i : a.j < b.j; });
+    std::stable_sort(pairs.begin(), pairs.end(), by_ends);
     coarse.couplings.start.push_back(0);
     for (std::size_t k = 0; k < pairs.size();) {
         MeshGraph::Coupling coupling{pairs[k].i, pairs[k].j, 0};

@@ -18,6 +18,14 @@ void reorder(std::vector<Value>& values, std::span<const std::uint32_t> order)
     for (std::size_t node = 0; node < order.size(); ++node) values[node] = before[order[node]];
 }
 
+/// At order[k] comes k.
+inline std::vector<std::uint32_t> inverse_of(std::span<const std::uint32_t> order)
+{
+    std::vector<std::uint32_t> places(order.size());
+    for (std::uint32_t k = 0; k < order.size(); ++k) places[order[k]] = k;
+    return places;
+}
+
 template <class Entry>
 void reorder_rows(Ragged<Entry>& rows, std::span<const std::uint32_t> order)
 {

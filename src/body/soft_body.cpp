@@ -32,7 +32,6 @@ std::pair<SpringSet, std::vector<std::uint32_t>> body_springs(const BodyOptions&
         const Vec3d d = to_double(positions[j]) - to_double(positions[i]);
         springs.push_back({i, j, spring_class, length_of(d)});
     };
-    const auto by_ends = [](const Spring& a, const Spring& b) { return a.i != b.i ? a.i < b.i : a.j < b.j; };
     for (std::uint32_t i = 0; i < rings.row_count(); ++i)
         for (const std::uint32_t j : rings.row(i))
             if (i < j) add(i, j, SpringClass::structural);
@@ -90,13 +89,14 @@ std::vector<float> weights_of(const Cloth& cloth, const ClothShape& shape)
 }
 
 /// 1 / sum of the weights of free nodes; 0 where all weights are 1.
-double inverse_weight_of(const Cloth& cloth, const BodyModel& body, const NodeMasses& masses)
+double inverse_weight_of(const Cloth& cloth, const SteppingPlan& plan, std::span<const float> weights,
+                         const NodeMasses& masses)
 {
-    if (body.weights.empty()) return 0;
+    if (weights.empty()) return 0;
     double sum = 0;
-    for (std::size_t i = 0; i < body.weights.size(); ++i)
-        if (masses.inverse(i) > 0) sum += double{body.weights[i]};
-    if (!(sum > 0) && body.constrained)
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        if (masses.inverse(i) > 0) sum += double{weights[i]};
+    if (!(sum > 0) && plan.keeps_volume())
         throw Error(ErrorKind::bad_input,
                     "body '" + cloth.name +
                         "': no free vertex has a weight above 0, so that nothing could keep its "
@@ -170,7 +170,6 @@ std::pair<SpringSet, BodyModel> make_soft_body(const Cloth& cloth, const Steppin
     part.options = cloth.body->volume;
     part.options.target = gradual_target(part.options.target);
     for (const Vec3& x : shape.positions) part.centre = part.centre + to_double(x) * (1.0 / count);
-    body.constrained = plan.step == SteppingPlan::Step::body_volume;
     body.has_pressure = std::any_of(part.options.pressure.begin(), part.options.pressure.end(),
                                     [](const TimedValue& p) { return p.value != 0; });
 
@@ -184,7 +183,7 @@ std::pair<SpringSet, BodyModel> make_soft_body(const Cloth& cloth, const Steppin
     part.block_count = static_cast<std::uint32_t>(body.node_blocks.size());
     part.fan_block_count = static_cast<std::uint32_t>(body.fan_blocks.size());
     body.weights = weights_of(cloth, shape);
-    part.inverse_weight = inverse_weight_of(cloth, body, masses);
+    part.inverse_weight = inverse_weight_of(cloth, plan, body.weights, masses);
     body.parts.push_back(std::move(part));
     body.loads = loads_of(cloth, shape, masses);
     return {std::move(springs), std::move(body)};

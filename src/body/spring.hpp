@@ -24,6 +24,11 @@ struct Spring {
     double bending = 0;
 };
 
+/// The order of lists of springs, and of other pairs of nodes i < j.
+inline constexpr auto by_ends = [](const auto& a, const auto& b) {
+    return a.i != b.i ? a.i < b.i : a.j < b.j;
+};
+
 /// The other end of a spring, seen from a node.
 struct Neighbour {
     std::uint32_t node = 0;

@@ -37,7 +37,7 @@ struct LimitedSprings {
     }
 };
 
-/// Limits by class, of the constraint methods. `finish` tells them of the cloth that they hold together.
+/// Limits by class, of the constraint methods. `finish` sets what depends on the whole cloth.
 struct SpringLimits {
     std::array<LimitedSprings, spring_class_count> of_class;
 

@@ -13,19 +13,18 @@ namespace {
 
 double distance(Vec3d a, Vec3d b) { return std::sqrt(dot(b - a, b - a)); }
 
-bool lies_before(const Spring& a, const Spring& b) { return a.i != b.i ? a.i < b.i : a.j < b.j; }
-
 }  // namespace
 
 SpringSet::SpringSet(const Cloth& cloth, const SteppingPlan& plan, ClothShape& shape)
 {
     const Springs& given = cloth.springs;
     const RestScales scales{given.structural.rest_scale, given.shear.rest_scale, given.bend.rest_scale};
-    if (shape.is_sheet()) set_rest_lengths(*shape.sheet, scales);
-    if (!shape.is_sheet())
+    if (shape.is_sheet()) {
+        set_rest_lengths(*shape.sheet, scales);
+        if (!plan.node_centric) list_sheet(*shape.sheet);
+    } else {
         list_mesh(shape, scales);
-    else if (!plan.node_centric)
-        list_sheet(*shape.sheet);
+    }
     if (plan.graded) grade(cloth, shape);
     if (!plan.node_centric) list_neighbours(shape.positions.size());
     if (shape.is_sheet()) {
@@ -76,7 +75,7 @@ void SpringSet::measure(const ClothShape& shape, double structural_scale)
     across = side / std::min(side, length / static_cast<double>(edges));
 }
 
-/// Gives springs their own numbers.
+/// Gives springs individual parameters.
 void SpringSet::grade(const Cloth& cloth, ClothShape& shape)
 {
     const bool quadratic = cloth.springs.bend_model == BendModel::quadratic;
@@ -141,8 +140,7 @@ void SpringSet::list_mesh(const ClothShape& shape, const RestScales& scales)
     for (const Pair& pair : edges) add(pair, SpringClass::structural);
     for (const Pair& pair : bends)
         if (!std::binary_search(edges.begin(), edges.end(), pair)) add(pair, SpringClass::bend);
-    std::sort(list.begin(), list.end(),
-              [](const Spring& a, const Spring& b) { return a.i != b.i ? a.i < b.i : a.j < b.j; });
+    std::sort(list.begin(), list.end(), by_ends);
 }
 
 void SpringSet::list_neighbours(std::size_t node_count)
@@ -178,10 +176,9 @@ void SpringSet::renumber(std::span<const std::uint32_t> order, std::span<const s
         springs_in_order[s] = s;
     }
     std::sort(springs_in_order.begin(), springs_in_order.end(),
-              [&](std::uint32_t a, std::uint32_t b) { return lies_before(list[a], list[b]); });
+              [&](std::uint32_t a, std::uint32_t b) { return by_ends(list[a], list[b]); });
     reorder(list, springs_in_order);
-    std::vector<std::uint32_t> place_of_spring(list.size());
-    for (std::uint32_t s = 0; s < list.size(); ++s) place_of_spring[springs_in_order[s]] = s;
+    const std::vector<std::uint32_t> place_of_spring = inverse_of(springs_in_order);
     reorder_rows(neighbours, order);
     for (Neighbour& neighbour : neighbours.entries)
         neighbour = {node_of_vertex[neighbour.node], place_of_spring[neighbour.spring]};

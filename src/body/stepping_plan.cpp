@@ -27,8 +27,8 @@ SteppingPlan::SteppingPlan(const Cloth& cloth, const Scene& scene)
     const auto* sheet = std::get_if<SheetOptions>(&cloth.shape);
     graded = !cloth.body && (cloth.springs.bend_model == BendModel::quadratic ||
                              (sheet && sheet->border == SheetBorder::half));
-    // Stages and the paper's rows go by springs.
     on_grid = sheet && !graded;
+    // Stages and the paper's rows go by springs.
     node_centric = on_grid && !lists_springs && step != Step::paper && !stages;
     keeps_order = cloth.body || step == Step::paper;
 }

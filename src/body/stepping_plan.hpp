@@ -50,8 +50,8 @@ struct SteppingPlan {
     AcadOptions acad;
 
     bool has_solver() const { return step == Step::newton || step == Step::acad || step == Step::paper; }
-    /// Steps of newton_multigrid alone, which say how far from solved they are and have the hand's pull
-    /// within them.
+    /// Every step is a step of newton_multigrid. Such steps report their residual and include the hand's
+    /// pull.
     bool is_implicit() const { return step == Step::newton; }
     /// ACAD by marks: springs are stepped alone, or by the paper's rows, and those that are stretched too far
     /// are constraints. False where its steps are too long for explicit springs, which are stepped with their
@@ -62,6 +62,7 @@ struct SteppingPlan {
         return step == Step::body_springs || step == Step::body_list || step == Step::body_volume;
     }
     /// Whether one pass gathers springs and the ring of neighbours, without a list of forces.
+    bool keeps_volume() const { return step == Step::body_volume; }
     bool gathers_rings() const { return step == Step::body_springs || step == Step::body_volume; }
     /// Forces of springs are computed spring by spring, in a pass of their own.
     bool lists_springs() const { return !node_centric && !gathers_rings(); }

@@ -275,9 +275,9 @@ KERNEL vec3 risen(int o, vec3 q, vec3 aim, real step, real inverse_step)
     return aim;
 }
 
-// The least load of a step, J, at a node. What flies or rests without forces asks for nothing beyond where it goes anyway, and
-// no step can be solved to a part of nothing. So a load is at least that of a thousandth of the way, and what rounding does: a
-// position is known to 2^-24 of its size, and six springs of a node resist that.
+// A lower bound of a node's part of the load, J. Without forces there is no load, and no step can be solved to a fraction of
+// nothing. The bound is that of a thousandth of the node's displacement, and of the rounding of its position to 2^-24, which
+// six springs resist.
 KERNEL real least_load(real mass, vec3 q, vec3 way)
 {
     const float thousandth2 = 1e-6f, rounding2 = 3.5527136788005009e-15f;  // the second: 2^-48

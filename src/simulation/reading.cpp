@@ -164,9 +164,7 @@ std::vector<SpringListing> Simulation::Implementation::springs(std::size_t cloth
             std::minmax(vertex_of[spring.i - place.first_node], vertex_of[spring.j - place.first_node]);
         add(i, j, spring.spring_class, spring.rest_length);
     }
-    std::sort(listing.begin(), listing.end(), [](const SpringListing& a, const SpringListing& b) {
-        return a.i != b.i ? a.i < b.i : a.j < b.j;
-    });
+    std::sort(listing.begin(), listing.end(), by_ends);
     return listing;
 }
 

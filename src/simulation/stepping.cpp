@@ -83,7 +83,7 @@ void Simulation::Implementation::make_models()
         };
         warn(starts_inside(scene, scene.cloth(c), model));
         find_sunk(scene, model, model.shape.positions, 0, lets_rise);
-        if (model.plan.is_body() && model.body->constrained) warn(fast_targets(scene.cloth(c)));
+        if (model.plan.keeps_volume()) warn(fast_targets(scene.cloth(c)));
         const auto host = std::find_if(models.begin(), models.end(),
                                        [&](const ClothModel& other) { return other.can_take(model); });
         if (host == models.end()) {

@@ -52,7 +52,7 @@ public:
     {
         const auto n = static_cast<Eigen::Index>(3 * model_.node_count());
         Matrix a = Matrix::Zero(n, n);
-        if (model_.shape.is_sheet())
+        if (model_.plan.on_grid)
             add_sheet(a, coarse);
         else
             add_mesh(a);

@@ -41,7 +41,7 @@ double bytes_per_node_and_step(const ClothModel& model, Backend backend)
 
     const double own = record > 0 ? node : layout.inverse_mass;  // own data that is not gathered
     const double ring = 2 * springs * (index + layout.number);   // each spring from both its ends
-    if (!model.body->constrained) return own + gathered + ring + state + record;  // ring_step
+    if (!model.plan.keeps_volume()) return own + gathered + ring + state + record;  // ring_step
     const double fans = static_cast<double>(model.body->fans.entries.size()) / nodes * index;
     const double gather = own + gathered + ring + 2 * v;               // predicted velocity and gradient
     const double step = 3 * v + layout.inverse_mass + 3 * v + record;  // and the direction

@@ -35,7 +35,7 @@ struct CpuCloth {
           solver(model, model.hierarchy),
           mesh(model.hierarchy, solver),
           body(plain),
-          sheet(plain.layout, model.shape.is_sheet() ? most_parts : 0)
+          sheet(plain.layout, model.plan.on_grid ? most_parts : 0)
     {
     }
     PlainCloth<float> plain;
@@ -99,7 +99,7 @@ struct Work {
         } else {
             plain.make_room_for(call->pass);
             size = plain.size_of(*call);
-            const bool of_mesh = call->pass == Pass::list_measure && !plain.model.shape.is_sheet();
+            const bool of_mesh = call->pass == Pass::list_measure && !plain.model.plan.on_grid;
             if (call->pass == Pass::sheet_measure || of_mesh) unit = Unit::measures;
             if (pass_unit == PassUnit::block || pass_unit == PassUnit::merged_block) weight = block_size;
         }

@@ -7,7 +7,7 @@ namespace pliant::cpu {
 MeasuredSprings::MeasuredSprings(const PlainCloth<float>& cloth)
 {
     const ClothModel& model = cloth.model;
-    if (model.shape.is_sheet()) return;
+    if (model.plan.on_grid) return;
     start_.push_back(0);
     std::vector<Neighbour> rows[Slices::lanes];
     for (std::size_t first = 0; first < model.node_count(); first += Slices::lanes) {

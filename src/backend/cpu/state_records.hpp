@@ -17,9 +17,7 @@ public:
     explicit StateRecords(const PlainCloth<float>& cloth)
     {
         const ClothModel& model = cloth.model;
-        const std::uint32_t count = model.plan.node_centric                 ? 0
-                                    : model.body && model.body->constrained ? 3
-                                                                            : 2;
+        const std::uint32_t count = model.plan.node_centric ? 0 : model.plan.keeps_volume() ? 3 : 2;
         for (std::uint32_t k = 0; k < count; ++k)
             records_[k] = AlignedArray<float>(cloth.layout.size * state_size);
     }

@@ -37,7 +37,7 @@ bool ClothBuffers::takes(PassLayout layout) const
         case PassLayout::nodes: return true;
         case PassLayout::springs:
         case PassLayout::list_steps: return !model_->plan.node_centric;
-        case PassLayout::triangles: return !model_->shape.is_sheet();
+        case PassLayout::triangles: return !model_->plan.on_grid;
         case PassLayout::body_forces:
         case PassLayout::body_volume: return model_->plan.is_body();
         case PassLayout::solver:
@@ -191,14 +191,13 @@ ClothBuffers::ClothBuffers(const Device& device, const ClothModel& model,
             filled(device, rest_class.data(), rest_class.size() * sizeof(rest_class[0]), "rest lengths");
         neighbour_start_ = filled(device, start.data(), start.size() * sizeof(start[0]), "neighbour rows");
         neighbours_ = filled(device, around.data(), around.size() * sizeof(around[0]), "neighbours");
-        if (model.plan.integrator == Integrator::runge_kutta_4 ||
-            model.plan.integrator == Integrator::explicit_euler)
+        if (model.plan.step == SteppingPlan::Step::stages)
             slopes_ = device.make_buffer(2 * nodes * sizeof(Float4), Usage::eStorageBuffer, Memory::device,
                                          "slopes");
         spring_force_ = device.make_buffer(ends.size() * sizeof(Float4), Usage::eStorageBuffer,
                                            Memory::device, "spring force");
     }
-    if (!model.shape.is_sheet()) {
+    if (!model.plan.on_grid) {
         const auto triangles = model.shape.triangles();
         const auto &start = model.shape.node_triangles.start, &around = model.shape.node_triangles.entries;
         triangles_ = filled(device, triangles.data(), triangles.size_bytes(), "triangles");
