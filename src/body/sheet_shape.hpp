@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
 
 #include "body/spring.hpp"
 
@@ -12,17 +14,21 @@ namespace pliant {
 struct SheetNeighbour {
     int row_offset = 0, column_offset = 0;
     SpringClass spring_class = SpringClass::structural;
-    int rest = 0;  ///< index into SheetShape::rest_lengths
+    int rest = 0;    ///< index into SheetShape::rest_lengths
+    int number = 0;  ///< among the six springs that begin at a node, in the solver's planes
 };
 
-/// The canonical order in which every backend adds a node's springs: by the neighbour's index, so the six
-/// backward neighbours come first, in row order, then the forward ones.
+/// In the canonical order of a node's springs.
 inline constexpr SheetNeighbour sheet_neighbours[12] = {
-    {-2, 0, SpringClass::bend, 4},      {-1, -1, SpringClass::shear, 2}, {-1, 0, SpringClass::structural, 1},
-    {-1, 1, SpringClass::shear, 2},     {0, -2, SpringClass::bend, 3},   {0, -1, SpringClass::structural, 0},
-    {0, 1, SpringClass::structural, 0}, {0, 2, SpringClass::bend, 3},    {1, -1, SpringClass::shear, 2},
-    {1, 0, SpringClass::structural, 1}, {1, 1, SpringClass::shear, 2},   {2, 0, SpringClass::bend, 4},
+#define SHEET_NEIGHBOUR(rows, columns, spring, rest, number) \
+    {                                                        \
+        rows, columns, SpringClass::spring, rest, number     \
+    }
+#include "kernels/sheet_neighbours.glsl"
+#undef SHEET_NEIGHBOUR
 };
+/// The springs that begin at a node: sheet_neighbours[first_forward_neighbour] and the five after it.
+inline constexpr std::size_t first_forward_neighbour = 6;
 
 struct SheetShape {
     std::uint32_t rows = 0, columns = 0;
@@ -49,7 +55,7 @@ void for_each_sheet_spring(const SheetShape& sheet, Function&& f)
 {
     for (std::uint32_t row = 0; row < sheet.rows; ++row)
         for (std::uint32_t column = 0; column < sheet.columns; ++column)
-            for (std::size_t n = 6; n < 12; ++n) {
+            for (std::size_t n = first_forward_neighbour; n < std::size(sheet_neighbours); ++n) {
                 const std::int64_t r = row + std::int64_t{sheet_neighbours[n].row_offset};
                 const std::int64_t c = column + std::int64_t{sheet_neighbours[n].column_offset};
                 if (r < 0 || c < 0 || r >= sheet.rows || c >= sheet.columns) continue;

@@ -5,7 +5,8 @@
 // is equal for smooth shapes and never softer.
 // Source: Trottenberg, Oosterlee, Schueller, "Multigrid", 2001.
 
-// Offsets on a sheet: the four forward neighbours by structural and shear springs, and the two by bend springs.
+// Offsets of the six springs that begin at a node, by their numbers in sheet_neighbours.glsl: four structural and shear
+// springs, then two bend springs.
 KERNEL int forward_offset(int k)
 {
     return k == 0 ? 1 : k == 1 ? level.stride - 1 : k == 2 ? level.stride : k == 3 ? level.stride + 1 : k == 4 ? 2 : 2 * level.stride;

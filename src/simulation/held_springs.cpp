@@ -70,8 +70,11 @@ void HeldSprings::find_sheet_marks(const ClothModel& model)
                    column = static_cast<std::int32_t>(spring.i % columns);
         const std::int32_t down = static_cast<std::int32_t>(spring.j / columns) - row,
                            right = static_cast<std::int32_t>(spring.j % columns) - column;
-        // As forward_offset of kernels/sheet.kernel.glsl.
-        const int k = down == 0 ? (right == 1 ? 0 : 4) : down == 2 ? 5 : 2 + right;
+        const int k = std::find_if(std::begin(sheet_neighbours), std::end(sheet_neighbours),
+                                   [&](const SheetNeighbour& n) {
+                                       return n.row_offset == down && n.column_offset == right;
+                                   })
+                          ->number;
         if (remembers_ && k >= 4) continue;  // bend springs have no memory
         spring.mark = std::int64_t{k} * level.size + Hierarchy::offset(level, row, column);
     }

@@ -177,12 +177,7 @@ void set_first_numbers(const ClothModel& model, const Hierarchy& hierarchy, T* a
     if (model.plan.on_grid)
         for_each_sheet_spring(
             *model.shape.sheet, [&](std::uint32_t i, std::uint32_t, const SheetNeighbour& n) {
-                // The numbers of the forward neighbours in kernels/sheet.kernel.glsl.
-                const int k = n.column_offset == 2 ? 4
-                              : n.row_offset == 2  ? 5
-                              : n.row_offset == 0  ? 0
-                                                   : n.column_offset + 2;
-                at(plane_scale + k,
+                at(plane_scale + n.number,
                    Hierarchy::offset(cloth, static_cast<std::int32_t>(i / model.shape.sheet->columns),
                                      static_cast<std::int32_t>(i % model.shape.sheet->columns))) = T(1);
             });

@@ -9,12 +9,11 @@ struct SheetNeighbour
     uint spring_class, rest;
 };
 
-// As in body/cloth_model.hpp, in canonical order: the six backward neighbours before the forward ones.
+#define SHEET_NEIGHBOUR(rows, columns, spring, rest, number) SheetNeighbour(rows, columns, spring, rest)
 const SheetNeighbour sheet_neighbours[12] = SheetNeighbour[12](
-    SheetNeighbour(-2, 0, bend, 4u), SheetNeighbour(-1, -1, shear, 2u), SheetNeighbour(-1, 0, structural, 1u),
-    SheetNeighbour(-1, 1, shear, 2u), SheetNeighbour(0, -2, bend, 3u), SheetNeighbour(0, -1, structural, 0u),
-    SheetNeighbour(0, 1, structural, 0u), SheetNeighbour(0, 2, bend, 3u), SheetNeighbour(1, -1, shear, 2u),
-    SheetNeighbour(1, 0, structural, 1u), SheetNeighbour(1, 1, shear, 2u), SheetNeighbour(2, 0, bend, 4u));
+#include "kernels/sheet_neighbours.glsl"
+);
+#undef SHEET_NEIGHBOUR
 
 bool on_sheet(ivec2 place)
 {
