@@ -71,4 +71,11 @@ void AtomicFile::commit()
     temporary_.clear();
 }
 
+void write_text_file(const std::filesystem::path& target, const std::string& text)
+{
+    AtomicFile file(target);
+    file.stream() << text;
+    file.commit();
+}
+
 }  // namespace pliant

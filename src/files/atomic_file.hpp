@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <string>
 
 #include "pliant/api.hpp"
 
@@ -37,5 +38,8 @@ private:
     std::filesystem::path temporary_;
     std::ofstream stream_;
 };
+
+/// Writes a whole file with an AtomicFile, and throws as that does.
+PLIANT_INSIDE void write_text_file(const std::filesystem::path& target, const std::string& text);
 
 }  // namespace pliant

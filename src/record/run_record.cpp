@@ -213,9 +213,7 @@ void RunSummary::write(const std::filesystem::path& file, Simulation& simulation
     auto& passes = summary["passes"] = nlohmann::ordered_json::object();
     for (const PassTime& pass : simulation.pass_times()) passes[pass.name] = pass.milliseconds;
 
-    AtomicFile target(file);
-    target.stream() << summary.dump(2) << '\n';
-    target.commit();
+    write_text_file(file, summary.dump(2) + "\n");
 }
 
 std::vector<std::string> failed_checks(const Scene& scene, const std::map<std::string, double>& values)

@@ -81,6 +81,15 @@ Axis axis_of(const Json& data, const Json& sets)
     return axis;
 }
 
+ExperimentKind kind_of(const std::string& name)
+{
+    if (name == "speed") return ExperimentKind::speed;
+    if (name == "behaviour") return ExperimentKind::behaviour;
+    if (name == "stability") return ExperimentKind::stability;
+    if (name == "passes") return ExperimentKind::passes;
+    throw Error(ErrorKind::bad_usage, "experiments.json: unknown kind '" + name + "'");
+}
+
 Experiment experiment_of(const Json& data, const Json& sets)
 {
     Experiment e;
@@ -89,10 +98,10 @@ Experiment experiment_of(const Json& data, const Json& sets)
     e.paper = data.at("paper");
     e.item = data.at("item");
     e.title = data.at("title");
-    e.kind = data.at("kind");
+    e.kind = kind_of(data.at("kind"));
     e.setting = data.at("setting");
     e.differs = data.at("differs");
-    if (e.kind == "passes") return e;
+    if (e.kind == ExperimentKind::passes) return e;
     e.scene = data.at("scene");
     if (data.contains("set")) e.set = overrides_of(data["set"], sets);
     for (const Json& axis : data.at("axes")) e.axes.push_back(axis_of(axis, sets));

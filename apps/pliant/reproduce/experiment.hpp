@@ -68,9 +68,17 @@ struct StabilityRule {
     double timed_at_most = 0;    ///< s: the cost of a step is measured with the longest stable one up to this
 };
 
+enum class ExperimentKind {
+    speed,      ///< frames per second
+    behaviour,  ///< measures of the motion, with pictures
+    stability,  ///< the longest stable step
+    passes,     ///< tables of passes: nothing is measured
+};
+
 struct Experiment {  // NOLINT(bugprone-exception-escape): moving JSON does not throw
     Json data;       ///< as in the file
-    std::string id, paper, item, title, kind;  ///< kind: speed, behaviour, stability, passes
+    ExperimentKind kind = ExperimentKind::passes;
+    std::string id, paper, item, title;
     std::string scene, setting, differs;
     std::vector<std::string> set;
     std::vector<Axis> axes;

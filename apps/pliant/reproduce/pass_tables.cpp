@@ -1,8 +1,8 @@
 // Tables 1 and 2 of the cloth paper beside ours, from this program's table of passes.
 #include <map>
 
+#include "experiment_plan.hpp"
 #include "pliant/error.hpp"
-#include "result.hpp"
 #include "solve/pass.hpp"
 
 namespace pliant::tool::reproduce {

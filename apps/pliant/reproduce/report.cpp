@@ -5,8 +5,8 @@
 
 #include "comparison_table.hpp"
 #include "embedded_texts.hpp"
+#include "files/atomic_file.hpp"
 #include "pliant/version.hpp"
-#include "result.hpp"
 
 namespace pliant::tool::reproduce {
 namespace {
@@ -323,11 +323,11 @@ void write_report(const std::filesystem::path& out, const std::vector<Json>& doc
 {
     Markdown markdown;
     write_all(markdown, out, documents, notes);
-    write_text(out / "report.md", markdown.finished());
+    write_text_file(out / "report.md", markdown.finished());
     Html html(out);
     write_all(html, out, documents, notes);
-    write_text(out / "report.html", html.finished());
-    write_text(out / "results.csv", all_numbers(documents));
+    write_text_file(out / "report.html", html.finished());
+    write_text_file(out / "results.csv", all_numbers(documents));
 }
 
 }  // namespace pliant::tool::reproduce

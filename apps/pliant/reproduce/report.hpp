@@ -8,7 +8,7 @@
 
 namespace pliant::tool::reproduce {
 
-/// `documents`: from run_experiment. Includes figures/ID.svg where it exists. `notes` are at the top.
+/// `documents`: from ExperimentPlan. Includes figures/ID.svg where it exists. `notes` are at the top.
 void write_report(const std::filesystem::path& out, const std::vector<Json>& documents,
                   const std::vector<std::string>& notes);
 

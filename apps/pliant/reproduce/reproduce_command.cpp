@@ -7,11 +7,11 @@
 #include "../interruption.hpp"
 #include "../progress.hpp"
 #include "../stopwatch.hpp"
+#include "experiment_plan.hpp"
 #include "files/atomic_file.hpp"
 #include "pliant/error.hpp"
 #include "render/child_process.hpp"
 #include "report.hpp"
-#include "result.hpp"
 
 namespace pliant::tool {
 namespace {
@@ -96,10 +96,11 @@ public:
         for (std::size_t k = 0; k < list_.size(); ++k) {
             const std::string name =
                 "[" + std::to_string(k + 1) + "/" + std::to_string(list_.size()) + "] " + list_[k]->id;
-            if (finished(*list_[k], here_)) {
+            const ExperimentPlan plan(*list_[k], here_);
+            if (plan.finished()) {
                 ++repeated_;
                 std::printf("%s: done before\n", name.c_str());
-            } else if (!one(*list_[k], name)) {
+            } else if (!one(plan, name)) {
                 return false;
             }
             ++done_;
@@ -111,17 +112,16 @@ public:
     std::size_t repeated() const { return repeated_; }
 
 private:
-    bool one(const Experiment& experiment, const std::string& name)
+    bool one(const ExperimentPlan& plan, const std::string& name)
     {
         const auto start = std::chrono::steady_clock::now();
         std::unique_ptr<Progress> progress;
-        here_.progress = [&](std::size_t done, std::size_t cases, const std::string& note) {
-            if (!progress) progress = std::make_unique<Progress>(cases, false, "case");
-            progress->update(done, name + ": " + note);
-        };
         try {
             if (here_.interrupted()) return false;
-            run_experiment(experiment, here_);
+            plan.run([&](std::size_t done, std::size_t cases, const std::string& note) {
+                if (!progress) progress = std::make_unique<Progress>(cases, false, "case");
+                progress->update(done, name + ": " + note);
+            });
         } catch (const Interruption&) {
             return false;
         }
@@ -142,7 +142,8 @@ void report(const Circumstances& here)
 {
     std::vector<Json> documents;
     for (const Experiment& experiment : experiments())
-        if (auto document = finished(experiment, here)) documents.push_back(std::move(*document));
+        if (auto document = ExperimentPlan(experiment, here).finished())
+            documents.push_back(std::move(*document));
     std::vector<std::string> notes;
     if (here.quick)
         notes.emplace_back(
