@@ -74,8 +74,7 @@ struct Pixel {
 /// The pixel that shows a point of the world if nothing is in front of it.
 Pixel pixel_at(const Image& image, const Camera& camera, Vec3d point)
 {
-    const auto clip = clip_from_world(camera, double(image.width) / image.height) *
-                      std::array<double, 4>{point.x, point.y, point.z, 1};
+    const auto clip = clip_from_world(camera, double(image.width) / image.height) * to_point(point);
     const auto x = static_cast<long>(std::floor((clip[0] / clip[3] + 1) / 2 * image.width));
     const auto y = static_cast<long>(std::floor((clip[1] / clip[3] + 1) / 2 * image.height));
     EXPECT_TRUE(x >= 0 && y >= 0 && x < long(image.width) && y < long(image.height))

@@ -76,9 +76,9 @@ void aim_light(Stage& stage, const Bounds& room)
     const Matrix4 light_from_world = look_along({}, stage.to_light * -1);
     Bounds box;
     for (int corner = 0; corner < 8; ++corner) {
-        const auto at = light_from_world * std::array<double, 4>{corner & 1 ? room.min.x : room.max.x,
-                                                                 corner & 2 ? room.min.y : room.max.y,
-                                                                 corner & 4 ? room.min.z : room.max.z, 1};
+        const auto at = light_from_world *
+                        to_point({corner & 1 ? room.min.x : room.max.x, corner & 2 ? room.min.y : room.max.y,
+                                  corner & 4 ? room.min.z : room.max.z});
         box.include({at[0], at[1], at[2]});
     }
     const Vec3d middle = (box.min + box.max) * 0.5, half = (box.max - box.min) * 0.5;

@@ -20,14 +20,14 @@ struct Bounds {
 
 /// Fixed for the whole run, so that light and shadows do not shimmer.
 struct Stage {
-    Vec3d to_light;             ///< unit length
-    Matrix4 shadow_from_world;  ///< xy onto [0, 1] of the shadow map, z its depth
-    double shadow_extent = 1;   ///< m, edge of the square that the shadow map covers
-    double floor_height = 0;    ///< m, of the floor that is drawn if the scene has no plane
-    bool has_plane = false;     ///< if so, that floor is not drawn
-    Vec3d centre;               ///< m, target of the camera
-    double view_distance = 1;   ///< m, from the camera to it
-    double inset = 0;           ///< m, see placement_of
+    Vec3d to_light;                ///< unit length
+    Matrix4 shadow_from_world{1};  ///< xy onto [0, 1] of the shadow map, z its depth
+    double shadow_extent = 1;      ///< m, edge of the square that the shadow map covers
+    double floor_height = 0;       ///< m, of the floor that is drawn if the scene has no plane
+    bool has_plane = false;        ///< if so, that floor is not drawn
+    Vec3d centre;                  ///< m, target of the camera
+    double view_distance = 1;      ///< m, from the camera to it
+    double inset = 0;              ///< m, see placement_of
 };
 Stage make_stage(const Scene& scene);
 

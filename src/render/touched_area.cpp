@@ -11,7 +11,7 @@ namespace {
 Matrix4 shadow_on_floor(Vec3d to_light, double height)
 {
     const double x = to_light.x / to_light.y, z = to_light.z / to_light.y;
-    return {{{{1, 0, 0, 0}, {-x, 0, -z, 0}, {0, 0, 1, 0}, {x * height, height, z * height, 1}}}};
+    return {{1, 0, 0, 0}, {-x, 0, -z, 0}, {0, 0, 1, 0}, {x * height, height, z * height, 1}};
 }
 
 }  // namespace
@@ -62,7 +62,7 @@ void TouchedArea::include(std::span<const Vec3> points)
 void TouchedArea::include(Vec3d point)
 {
     for (const Matrix4& view : views_) {
-        const auto at = view * std::array<double, 4>{point.x, point.y, point.z, 1};
+        const auto at = view * to_point(point);
         if (!(at[3] > nearest_)) {  // also for NaN
             unknown_ = true;
             return;

@@ -77,7 +77,7 @@ Ray OrbitCamera::ray(double x, double y, double width, double height) const
 
 Vec3d seen_at(const Matrix4& clip, Vec3d point, double width, double height)
 {
-    const auto at = clip * std::array<double, 4>{point.x, point.y, point.z, 1};
+    const auto at = clip * to_point(point);
     if (at[3] <= 0) return {0, 0, -1};
     return {(at[0] / at[3] + 1) / 2 * width, (at[1] / at[3] + 1) / 2 * height, at[3]};
 }
